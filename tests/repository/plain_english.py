@@ -22,7 +22,7 @@ FENCED = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
 TARGET = re.compile(r"\]\([^)\s]+\)")
 CELL = re.compile(r"(?<!\\)\|")
 MOST_IN_CELL = 20     # words; longer text stands under its table
-MOST_IN_DOCS = 75_830
+MOST_IN_DOCS = 75_900
 OWN_LINE = re.compile(r"\s*//+<?\s*(.*)")
 TRAILING = re.compile(r"[^\s\"'].*[;,{}()]\s+//+<?\s*(.*)")
 

@@ -12,10 +12,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "common/space/space.h"
+#include "engine_worker/engines/dynamics3d/contact_constants.h"
 
 namespace swarmanoid::dynamics3d
 {
@@ -133,6 +135,8 @@ bool ContactFreeSet::HasLevelGround() const
   return has_ground;
 }
 
+bool ContactFreeSet::IsBesideRobots(const Box& box) const { return box[5] > -kPushed && box[4] < top_ + kPushed; }
+
 std::vector<StaticOutline> ContactFreeSet::StaticOutlines() const
 {
   std::vector<StaticOutline> outlines = holes_;
@@ -148,7 +152,7 @@ std::vector<StaticOutline> ContactFreeSet::StaticOutlines() const
     }
     std::array<double, 6> box;
     dGeomGetAABB(solid->geom, box.data());
-    if (box[5] > -kPushed && box[4] < top_ + kPushed) outlines.push_back(OutlineOf(solid->geom, box));
+    if (IsBesideRobots(box)) outlines.push_back(OutlineOf(solid->geom, box));
   }
   return outlines;
 }
@@ -167,6 +171,51 @@ void ContactFreeSet::Configure()
     outlines_[k].whole = {place.x(), place.y(), bodies_[k].radius, 0};
   }
   isolation_.Configure(outlines_, StaticOutlines(), kFastest * steps_ * step_seconds_);
+  SetUprights();
+}
+
+// In the order of StaticOutlines.
+void ContactFreeSet::SetUprights()
+{
+  uprights_.assign(holes_.size(), {});
+  for (const auto& solid : scene_.world.Solids())
+  {
+    if (dGeomGetBody(solid->geom) != nullptr) continue;
+    Upright upright;
+    upright.touch = solid->touch;
+    if (dGeomGetClass(solid->geom) == dPlaneClass)
+    {
+      dVector4 plane;
+      dGeomPlaneGetParams(solid->geom, plane);
+      if (std::abs(plane[2]) >= 1e-9) continue;
+      upright.is_upright = true;
+      upright.low = -kFarAway;
+      upright.high = kFarAway;
+      upright.normal = {plane[0], plane[1]};
+      upright.distance = plane[3];
+    }
+    else
+    {
+      std::array<double, 6> box;
+      dGeomGetAABB(solid->geom, box.data());
+      if (!IsBesideRobots(box)) continue;
+      const std::optional<Prism> prism = PrismOf(solid->geom);
+      upright.is_upright = prism.has_value() && prism->slope.norm() < 1e-9;
+      if (upright.is_upright)
+      {
+        upright.prism = *prism;
+        upright.half = {prism->half_x.norm(), prism->half_y.norm()};
+        if (prism->radius == 0)
+        {
+          upright.along_x = prism->half_x / upright.half.x();
+          upright.along_y = prism->half_y / upright.half.y();
+        }
+      }
+      upright.low = box[4];
+      upright.high = box[5];
+    }
+    uprights_.push_back(upright);
+  }
 }
 
 void ContactFreeSet::BeginTick()
@@ -174,6 +223,7 @@ void ContactFreeSet::BeginTick()
   if (solids_ != scene_.world.Solids().size()) Configure();
   is_searched_ = false;
   pairs_.clear();
+  for (Body& body : bodies_) body.is_in_plane = false;
   if (!has_level_ground_) return;
   has_links_.assign(scene_.models.size(), 0);
   scene_.links.Mark(has_links_);
@@ -209,12 +259,167 @@ void ContactFreeSet::Search(int step)
     }
   }
   is_searched_ = are_within && isolation_.Find(outlines_, kPushed + kTouch, nearness_, &pairs_);
+  for (Body& body : bodies_) body.is_in_plane = false;
   if (!is_searched_) return pairs_.clear();
+  for (std::size_t k = 0; k < bodies_.size(); ++k)
+    bodies_[k].is_near = bodies_[k].is_near || nearness_[k] == Nearness::kNear;
+  FindInPlane(step);
   const auto may_be_free = [&](std::uint32_t number) { return number < bodies_.size() && bodies_[number].may_be_free; };
   std::erase_if(pairs_,
                 [&](const kinematics2d::Pair& pair) { return !may_be_free(pair.first) && !may_be_free(pair.second); });
-  for (std::size_t k = 0; k < bodies_.size(); ++k)
-    bodies_[k].is_near = bodies_[k].is_near || nearness_[k] == Nearness::kNear;
+  // The planar solver takes contacts in this order.
+  std::ranges::sort(pairs_, {}, [](const kinematics2d::Pair& pair) { return std::pair(pair.first, pair.second); });
+}
+
+// Finds the robots that need no world of ODE, since all that they can meet, directly or through others, are robots that
+// stand on wheels and upright walls. This changes no bit. ODE leaves them out at once, since other groups may step
+// before theirs.
+void ContactFreeSet::FindInPlane(int step)
+{
+  const auto count = static_cast<std::uint32_t>(bodies_.size());
+  needs_ode_.assign(count, 0);
+  for (std::uint32_t k = 0; k < count; ++k)
+    needs_ode_[k] = bodies_[k].may_be_free && bodies_[k].robot->StandsOnWheels() ? 0 : 1;
+  islands_.Reset(count);
+  for (const kinematics2d::Pair& pair : pairs_)
+  {
+    const bool is_met = needs_ode_[pair.first] == 0 && MeetInPlane(bodies_[pair.first], pair.second);
+    if (pair.second < count) islands_.Join(pair.first, pair.second);
+    if (!is_met) needs_ode_[pair.first] = 1;
+  }
+  for (std::uint32_t k = 0; k < count; ++k)
+    if (needs_ode_[k] != 0) needs_ode_[islands_.Of(k)] = 1;
+  for (std::uint32_t k = 0; k < count; ++k)
+  {
+    Body& body = bodies_[k];
+    body.is_in_plane = needs_ode_[islands_.Of(k)] == 0 && body.is_near;
+    if (!body.is_in_plane || body.IsFree() || body.IsPlanar()) continue;
+    body.robot->BecomePlanar();
+    body.advanced = step;
+  }
+}
+
+// Returns whether a robot and what it can meet stand side by side.
+bool ContactFreeSet::MeetInPlane(const Body& robot, std::uint32_t other) const
+{
+  if (other >= bodies_.size())
+  {
+    const Upright& upright = uprights_[other - bodies_.size()];
+    return upright.is_upright && robot.robot->MeetsUpright(upright.low, upright.high);
+  }
+  const Body& body = bodies_[other];
+  if (body.robot == nullptr) return false;
+  const PlanarOutline& first = robot.robot->InPlane();
+  const PlanarOutline& second = body.robot->InPlane();
+  return robot.robot->MeetsUpright(second.low, second.high) && body.robot->MeetsUpright(first.low, first.high);
+}
+
+namespace
+{
+
+// The outline of a robot where its motion is.
+Prism PrismOf(const WheeledModel& robot)
+{
+  const PlanarOutline& outline = robot.InPlane();
+  const PlaneMotion& motion = robot.Motion();
+  Prism prism;
+  prism.centre = {motion.x, motion.y};
+  prism.radius = outline.radius;
+  prism.half_x = Vector2(motion.cosine, motion.sine) * outline.half_size.x();
+  prism.half_y = Vector2(-motion.sine, motion.cosine) * outline.half_size.y();
+  return prism;
+}
+
+// Where a robot meets a wall without end.
+PlaneContact MeetWall(const Prism& robot, const Vector2& normal, double distance)
+{
+  PlaneContact contact;
+  contact.normal = normal;
+  const auto add = [&](const Vector2& point)
+  {
+    const PlanePoint here{point, distance - normal.dot(point)};
+    if (contact.count < 2)
+      contact.points[contact.count++] = here;
+    else if (PlanePoint& least = contact.points[contact.points[0].depth < contact.points[1].depth ? 0 : 1];
+             here.depth > least.depth)
+      least = here;
+  };
+  if (robot.radius > 0)
+    add(robot.centre - normal * robot.radius);
+  else
+    for (const Vector2& corner : robot.CornersOfBox()) add(corner);
+  return contact;
+}
+
+}  // namespace
+
+PlaneContact ContactFreeSet::MeetUpright(const Prism& robot, const Upright& upright) const
+{
+  if (!upright.normal.isZero(0)) return MeetWall(robot, upright.normal, upright.distance);
+  if (robot.radius == 0 || upright.prism.radius > 0) return Meet(robot, upright.prism);
+  // A disc beside a box.
+  const Vector2 way = robot.centre - upright.prism.centre;
+  const Vector2 place(way.dot(upright.along_x), way.dot(upright.along_y));
+  const Vector2 nearest = place.cwiseMax(-upright.half).cwiseMin(upright.half);
+  const Vector2 apart = place - nearest;
+  const double distance = std::sqrt(apart.squaredNorm());
+  if (distance < 1e-9) return Meet(robot, upright.prism);
+  PlaneContact contact;
+  contact.normal = (apart.x() * upright.along_x + apart.y() * upright.along_y) / distance;
+  contact.points[0] = {upright.prism.centre + nearest.x() * upright.along_x + nearest.y() * upright.along_y,
+                       robot.radius - distance};
+  contact.count = 1;
+  return contact;
+}
+
+void ContactFreeSet::AddContacts(const kinematics2d::Pair& pair, PlanarSolver& solver) const
+{
+  const Body& first = bodies_[pair.first];
+  const WorldSettings& settings = scene_.world.Settings();
+  const Prism robot = PrismOf(*first.robot);
+  PlaneContact meeting;
+  PlanarContact contact{.first = first.in_solver, .friction = settings.friction, .restitution = settings.restitution};
+  double reach = kTouch + first.step_way;
+  if (pair.second < bodies_.size())
+  {
+    const Body& second = bodies_[pair.second];
+    contact.second = static_cast<int>(second.in_solver);
+    contact.yielding = kRubbing;
+    meeting = Meet(robot, PrismOf(*second.robot));
+    reach += second.step_way;
+  }
+  else
+  {
+    const Upright& upright = uprights_[pair.second - bodies_.size()];
+    contact.friction = std::sqrt(settings.friction * upright.touch.friction.value_or(settings.friction));
+    contact.restitution = std::max(settings.restitution, upright.touch.restitution.value_or(settings.restitution));
+    meeting = MeetUpright(robot, upright);
+  }
+  contact.normal = meeting.normal;
+  for (const PlanePoint& point : std::span(meeting.points).first(meeting.count))
+  {
+    if (point.depth < -reach) continue;
+    contact.point = point.point;
+    contact.depth = point.depth;
+    solver.Add(contact);
+  }
+}
+
+int ContactFreeSet::PlanarStep(std::span<const std::uint32_t> bodies, std::span<const kinematics2d::Pair> pairs,
+                               PlanarSolver& solver)
+{
+  const WorldSettings& settings = scene_.world.Settings();
+  solver.Begin(step_seconds_, settings.wheel_friction, std::sqrt(settings.gravity.squaredNorm()));
+  for (const std::uint32_t k : bodies)
+    if (Body& body = bodies_[k]; body.IsPlanar()) body.in_solver = body.robot->AddTo(solver);
+  if (solver.IsEmpty()) return 0;
+  for (const kinematics2d::Pair& pair : pairs)
+    if (bodies_[pair.first].IsPlanar() && (pair.second >= bodies_.size() || bodies_[pair.second].IsPlanar()))
+      AddContacts(pair, solver);
+  solver.Solve(settings.iterations);
+  for (const std::uint32_t k : bodies)
+    if (Body& body = bodies_[k]; body.IsPlanar()) body.robot->AfterPlanarStep(step_seconds_);
+  return static_cast<int>(solver.ContactCount());
 }
 
 // Sets the outline of a body at its position, and how far the body can move by itself within `seconds`.
@@ -259,7 +464,7 @@ bool ContactFreeSet::IsTooFar(const Body& body, const MovingOutline& outline) co
 {
   const MovingCircle& whole = outline.whole;
   const dBodyID main = MainBodyOf(body);
-  const double next = SpeedInPlane(main) * step_seconds_;
+  const double next = (body.IsPlanar() ? body.robot->PlanarSpeed() : SpeedInPlane(main)) * step_seconds_;
   if (outline.part_count > 0)
     return !body.robot->IsUpright() ||
            (body.robot->GroundPoint() - Vector2(whole.x, whole.y)).norm() + next > whole.way + kPushed;
@@ -281,6 +486,16 @@ double ContactFreeSet::GapBetween(const Body& robot, std::uint32_t other) const
 {
   const Vector2 place = robot.robot->GroundPoint();
   double gap = -robot.robot->Radius();
+  if (other >= bodies_.size() && uprights_[other - bodies_.size()].is_upright)
+  {
+    const Upright& upright = uprights_[other - bodies_.size()];
+    if (!upright.normal.isZero(0)) return gap + upright.normal.dot(place) - upright.distance;
+    const Vector2 way = place - upright.prism.centre;
+    if (upright.prism.radius > 0) return gap + way.norm() - upright.prism.radius;
+    const double x = std::max(std::abs(way.dot(upright.along_x)) - upright.half.x(), 0.0);
+    const double y = std::max(std::abs(way.dot(upright.along_y)) - upright.half.y(), 0.0);
+    return gap + std::sqrt(x * x + y * y);
+  }
   if (other >= bodies_.size()) return gap + swarmanoid::DistanceTo(isolation_.Statics()[other - bodies_.size()], place);
   const Body& body = bodies_[other];
   if (body.robot != nullptr && body.robot->IsUpright())
@@ -288,24 +503,41 @@ double ContactFreeSet::GapBetween(const Body& robot, std::uint32_t other) const
   return gap + DistanceTo(BoxOf(body), place);
 }
 
+// Finds the bodies that touch, and for each its island of bodies that touch one another.
 void ContactFreeSet::FindTouching(std::span<const std::uint32_t> bodies, std::span<const kinematics2d::Pair> pairs)
 {
-  for (const std::uint32_t body : bodies) bodies_[body].touches = false;
+  for (const std::uint32_t k : bodies)
+  {
+    Body& body = bodies_[k];
+    body.touches = false;
+    body.island = k;
+    body.step_way = body.IsLeftOut() ? 0 : LargestStep(body);
+    body.needs_ode = !body.may_be_free || !body.robot->StandsOnWheels();
+  }
   for (const kinematics2d::Pair& pair : pairs)
   {
-    Body* first = &bodies_[pair.first];
+    std::uint32_t robot = pair.first;
     std::uint32_t other = pair.second;
-    if (!first->may_be_free)
-    {
-      first = &bodies_[pair.second];
-      other = pair.first;
-    }
-    double reach = kTouch + LargestStep(*first);
-    if (other < bodies_.size()) reach += LargestStep(bodies_[other]);
-    if (GapBetween(*first, other) >= reach) continue;
-    first->touches = true;
-    if (other < bodies_.size()) bodies_[other].touches = true;
+    if (!bodies_[robot].may_be_free) std::swap(robot, other);
+    Body& body = bodies_[robot];
+    double reach = kTouch + body.step_way;
+    if (other < bodies_.size()) reach += bodies_[other].step_way;
+    if (GapBetween(body, other) >= reach) continue;
+    body.touches = true;
+    if (!MeetInPlane(body, other)) body.needs_ode = true;
+    if (other >= bodies_.size()) continue;
+    bodies_[other].touches = true;
+    const std::uint32_t a = IslandOf(robot), b = IslandOf(other);
+    bodies_[std::max(a, b)].island = std::min(a, b);
   }
+  for (const std::uint32_t k : bodies)
+    if (bodies_[k].needs_ode) bodies_[IslandOf(k)].needs_ode = true;
+}
+
+std::uint32_t ContactFreeSet::IslandOf(std::uint32_t body) const
+{
+  while (bodies_[body].island != body) body = bodies_[body].island;
+  return body;
 }
 
 bool ContactFreeSet::BeforeStep(std::span<const std::uint32_t> bodies, std::span<const kinematics2d::Pair> pairs,
@@ -319,7 +551,7 @@ bool ContactFreeSet::BeforeStep(std::span<const std::uint32_t> bodies, std::span
     Body& body = bodies_[k];
     if (!body.owned || body.IsLeftOut()) continue;
     if (body.robot != nullptr) Decide(body, step);
-    if (!body.IsFree()) solved.push_back(body.model);
+    if (!body.IsFree() && !body.IsPlanar()) solved.push_back(body.model);
     is_any_left = is_any_left || !body.IsFree() || body.is_near;
   }
   return is_any_left;
@@ -328,15 +560,31 @@ bool ContactFreeSet::BeforeStep(std::span<const std::uint32_t> bodies, std::span
 void ContactFreeSet::Decide(Body& body, int step)
 {
   WheeledModel& robot = *body.robot;
-  const bool may_be_free = is_searched_ && body.may_be_free && !(body.is_near && body.touches);
+  const bool may_be_free = is_searched_ && body.may_be_free;
+  const bool is_in_contact = body.is_near && body.touches;
+  if (may_be_free && !bodies_[IslandOf(body.model->AssemblyNumber())].needs_ode)
+  {
+    const bool was_free = robot.IsFree();
+    if (was_free && !is_in_contact) return;
+    if (was_free) AdvanceTo(body, step);
+    body.advanced = step;
+    robot.BecomePlanar();
+    if (!is_in_contact && robot.RollsFreely()) robot.BecomeFree();
+    return;
+  }
+  if (robot.IsPlanar())
+  {
+    robot.MoveBodies();
+    robot.BecomeSolved();
+  }
   if (robot.IsFree())
   {
-    if (may_be_free) return;
+    if (may_be_free && !is_in_contact) return;
     AdvanceTo(body, step);
     robot.MoveBodies();
     robot.BecomeSolved();
   }
-  else if (may_be_free && robot.RollsFreely())
+  else if (may_be_free && !is_in_contact && robot.RollsFreely())
   {
     robot.BecomeFree();
     body.advanced = step;
@@ -361,9 +609,8 @@ void ContactFreeSet::AfterStep(std::span<const std::uint32_t> bodies, int step)
 void ContactFreeSet::EndTick(std::uint32_t number)
 {
   Body& body = bodies_[number];
-  if (!body.IsFree()) return;
-  AdvanceTo(body, steps_);
-  body.robot->MoveBodies();
+  if (body.IsFree()) AdvanceTo(body, steps_);
+  if (body.IsFree() || body.IsPlanar()) body.robot->MoveBodies();
 }
 
 void ContactFreeSet::SaveTick(std::uint32_t number, ByteWriter& state) const
@@ -371,6 +618,7 @@ void ContactFreeSet::SaveTick(std::uint32_t number, ByteWriter& state) const
   const Body& body = bodies_[number];
   state.Put(body.may_be_free);
   state.Put(body.is_near);
+  state.Put(body.is_in_plane);
   state.Put(static_cast<std::int32_t>(body.advanced));
   if (!is_searched_) return;
   const MovingOutline& outline = outlines_[number];
@@ -384,6 +632,7 @@ void ContactFreeSet::LoadTick(std::uint32_t number, ByteReader& state)
   Body& body = bodies_[number];
   body.may_be_free = state.Get<std::uint8_t>() != 0;
   body.is_near = state.Get<std::uint8_t>() != 0;
+  body.is_in_plane = state.Get<std::uint8_t>() != 0;
   body.advanced = state.Get<std::int32_t>();
   if (!is_searched_) return;
   MovingOutline& outline = outlines_[number];

@@ -91,17 +91,11 @@ void DifferentialDrive::Roll(PlaneMotion& motion, double seconds) const
   const double half = Turn(motion) * seconds / 2;
   const SinCos half_turn = SinCosOf(half);
   const double chord = Speed(motion) * seconds * (std::abs(half) > 1e-6 ? half_turn.sin / half : 1);
-  const auto rotate = [&](double& cosine, double& sine)
-  {
-    const double before = cosine;
-    cosine = half_turn.cos * cosine - half_turn.sin * sine;
-    sine = half_turn.cos * sine + half_turn.sin * before;
-  };
-  rotate(motion.half_cosine, motion.half_sine);
-  rotate(motion.cosine, motion.sine);
+  motion.RotateHalfTurn(half_turn);
+  motion.RotateHeading(half_turn);
   motion.x += chord * motion.cosine;
   motion.y += chord * motion.sine;
-  rotate(motion.cosine, motion.sine);
+  motion.RotateHeading(half_turn);
 }
 
 }  // namespace swarmanoid::dynamics3d

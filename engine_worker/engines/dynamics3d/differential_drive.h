@@ -5,6 +5,8 @@
 
 #include <array>
 
+#include "common/math/elementary.h"
+
 namespace swarmanoid::dynamics3d
 {
 
@@ -28,12 +30,26 @@ struct PlaneMotion
   double half_cosine = 1, half_sine = 0;  // of half the turn since it was left alone
   std::array<double, 2> rates = {0, 0};   // rad/s, of the wheels
   std::array<double, 2> turned = {0, 0};  // rad, by the wheels in the last call of Advance
+  // The velocity (m/s, rad/s) of a robot that slides or is pushed. One that rolls has that of its wheels.
+  double vx = 0, vy = 0, spin = 0;
+
+  void RotateHeading(const SinCos& turn) { Rotate(cosine, sine, turn); }
+  void RotateHalfTurn(const SinCos& turn) { Rotate(half_cosine, half_sine, turn); }
+
+private:
+  static void Rotate(double& cosine, double& sine, const SinCos& turn)
+  {
+    const double before = cosine;
+    cosine = turn.cos * cosine - turn.sin * sine;
+    sine = turn.cos * sine + turn.sin * before;
+  }
 };
 
 class DifferentialDrive
 {
 public:
   explicit DifferentialDrive(const DriveDescription& description);
+  const DriveDescription& Description() const { return robot_; }
 
   // Returns the largest torque (N m) of a direct-current motor: the stall torque less the loss by speed, or more than
   // it when braking.

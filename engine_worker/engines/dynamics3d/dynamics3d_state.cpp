@@ -8,7 +8,7 @@ namespace swarmanoid
 namespace
 {
 
-constexpr std::uint32_t kDynamics3dVersion = 4;
+constexpr std::uint32_t kDynamics3dVersion = 5;
 
 }  // namespace
 

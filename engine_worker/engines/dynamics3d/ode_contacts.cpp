@@ -12,6 +12,7 @@
 #include <span>
 
 #include "engine_worker/engines/dynamics3d/collide.h"
+#include "engine_worker/engines/dynamics3d/contact_constants.h"
 #include "engine_worker/engines/dynamics3d/solver_world.h"
 
 namespace swarmanoid::dynamics3d
@@ -22,20 +23,8 @@ namespace
 constexpr double kCasterDamping = 0.05;  // s: N s/m per N/m
 // Slower than this a contact is taken to stick, and its friction works along the pull of gravity.
 constexpr double kSlip = 1e-3;  // m/s
-// Faster than this a wheel slips, and its friction works against the slip alone.
-constexpr double kWheelSlip = 0.02;  // m/s
-// A slipping wheel rubs a little more the faster it slips, up to a limit. If it did not, two robots with spinning
-// wheels that push each other could move together at any speed.
-constexpr double kSlipRise = 0.5;     // s/m
-constexpr double kFastestSlip = 0.6;  // m/s
 // With less friction, stalled motors spin wheels on level ground: 0.73 of the weight over 0.77 of it.
 constexpr double kSlippery = 0.95;
-// Robots that rub against each other yield by this. A robot that rests on wheels could otherwise bear any part of its
-// neighbour's weight by rubbing, and the solver would choose the part at random.
-constexpr double kRubbing = 0.03;  // m/s per N
-// Slower collisions give nothing back.
-constexpr double kLeastBounce = 0.05;  // m/s
-
 // Overlapping objects separate by a fifth of the overlap in a step, limited by this speed. At steps of 5 ms the limit
 // applies to overlaps below 7.5 mm; deeper ones separate by a fiftieth. ODE turns this correction into a velocity that
 // bodies keep, so faster correction would make objects bounce. Robots are solved with few iterations and need the

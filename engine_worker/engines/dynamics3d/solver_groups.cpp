@@ -14,6 +14,7 @@
 #include <atomic>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <numeric>
 
@@ -112,7 +113,8 @@ void SolverGroups::Find(int step)
   is_fast_.assign(count, 0);
   boxes_.clear();
   for (std::uint32_t assembly = 0; assembly < count; ++assembly)
-    if (!models_[assembly]->IsLeftOut() && !free_robots_.IsFar(assembly)) SetReach(assembly, seconds);
+    if (!models_[assembly]->IsLeftOut() && !free_robots_.IsFar(assembly) && !free_robots_.IsInPlane(assembly))
+      SetReach(assembly, seconds);
   FindPairs();
   FindGroups();
 }
@@ -194,22 +196,26 @@ void SolverGroups::FindGroups()
   sizes_.assign(count, 0);
   for (std::uint32_t assembly = 0; assembly < count; ++assembly) ++sizes_[islands_.Of(assembly)];
   group_of_.assign(count, kNoGroup);
-  group_count_ = 0;
+  group_count_ = lone_count_ = 0;
+  is_in_plane_.clear();
   for (std::uint32_t assembly = 0; assembly < count; ++assembly)
   {
     const std::uint32_t first = islands_.Of(assembly);
-    if (sizes_[first] < 2 && is_fast_[first] == 0) continue;
+    const bool is_in_plane = free_robots_.IsInPlane(first);
+    if (sizes_[first] < 2 && is_fast_[first] == 0 && !is_in_plane) continue;
     if (first == assembly)
     {
       group_of_[first] = static_cast<std::uint32_t>(group_count_++);
       if (groups_.size() < group_count_) groups_.emplace_back();
       groups_[group_of_[first]].clear();
+      is_in_plane_.push_back(is_in_plane ? 1 : 0);
+      if (is_in_plane && sizes_[first] < 2) ++lone_count_;
     }
     groups_[group_of_[first]].push_back(assembly);
   }
 }
 
-// Gives each group a world. A world whose members stay is kept.
+// Gives each group that is not in the plane a world. A world whose members stay is kept.
 void SolverGroups::PlaceGroups()
 {
   OdeWorld& world = scene_.world;
@@ -217,6 +223,7 @@ void SolverGroups::PlaceGroups()
   is_used_.assign(worlds_.size(), 0);
   for (std::size_t group = 0; group < group_count_; ++group)
   {
+    if (is_in_plane_[group] != 0) continue;
     const SolverWorld& before = *world.AssemblyAt(groups_[group].front()).world;
     if (before.Number() == SolverWorld::kHome || !std::ranges::equal(before.Members(), groups_[group])) continue;
     world_of_group_[group] = before.Number();
@@ -227,7 +234,7 @@ void SolverGroups::PlaceGroups()
   const auto is_moving = [&](std::uint32_t assembly) { return is_moving_[assembly] != 0; };
   for (std::uint32_t assembly = 0; assembly < models_.size(); ++assembly)
   {
-    const std::uint32_t group = GroupOf(assembly);
+    const std::uint32_t group = GroupWithWorld(assembly);
     const bool stays = group == kNoGroup ? world.AssemblyAt(assembly).world == &world.HomeOf(assembly)
                                          : world_of_group_[group] != kNoGroup;
     is_moving_[assembly] = stays ? 0 : 1;
@@ -236,7 +243,7 @@ void SolverGroups::PlaceGroups()
   std::uint32_t next = 0;
   for (std::size_t group = 0; group < group_count_; ++group)
   {
-    if (world_of_group_[group] != kNoGroup) continue;
+    if (world_of_group_[group] != kNoGroup || is_in_plane_[group] != 0) continue;
     while (next < worlds_.size() && is_used_[next] != 0) ++next;
     if (next == worlds_.size()) worlds_.push_back(std::make_unique<SolverWorld>(world, next));
     world_of_group_[group] = next;
@@ -245,7 +252,7 @@ void SolverGroups::PlaceGroups()
     to.SetMembers(groups_[group]);
   }
   for (std::uint32_t assembly = 0; assembly < models_.size(); ++assembly)
-    if (is_moving(assembly) && GroupOf(assembly) == kNoGroup) world.Move(assembly, world.HomeOf(assembly));
+    if (is_moving(assembly) && GroupWithWorld(assembly) == kNoGroup) world.Move(assembly, world.HomeOf(assembly));
   world.SetMembersOfHomes();
   scene_.links.CreateJoints();
 }
@@ -262,8 +269,13 @@ void SolverGroups::MakeTasks(std::span<const kinematics2d::Pair> near_pairs)
   for (std::size_t k = 0; k < task_count_; ++k)
   {
     Task& task = tasks_[k];
-    task.world = k < homes ? world.Homes()[k].get() : worlds_[world_of_group_[k - homes]].get();
-    task.world->ForgetNear();
+    const bool is_in_plane = k >= homes && is_in_plane_[k - homes] != 0;
+    task.world = is_in_plane ? nullptr : k < homes ? world.Homes()[k].get() : worlds_[world_of_group_[k - homes]].get();
+    const std::span<const std::uint32_t> members = k < homes ? task.world->Members() : groups_[k - homes];
+    task.members.clear();
+    std::ranges::copy_if(members, std::back_inserter(task.members),
+                         [&](std::uint32_t member) { return k >= homes || !free_robots_.IsInPlane(member); });
+    if (task.world != nullptr) task.world->ForgetNear();
     task.near_pairs.clear();
     task.contacts = 0;
     task.goes_too_far = false;
@@ -280,14 +292,14 @@ void SolverGroups::MakeTasks(std::span<const kinematics2d::Pair> near_pairs)
     tasks_[group == kNoGroup ? OdeWorld::HomeNumberOf(pair.first) : homes + group].near_pairs.push_back(pair);
   }
   std::ranges::stable_sort(order_, std::ranges::greater(),
-                           [&](std::uint32_t task) { return tasks_[task].world->Members().size(); });
+                           [&](std::uint32_t task) { return tasks_[task].members.size(); });
 }
 
 // Makes one step of all groups. The largest ones come first, so that the threads end at about the same time.
 void SolverGroups::RunStep(int step, std::uint64_t number)
 {
   std::size_t members = 0;
-  for (const std::uint32_t task : order_) members += tasks_[task].world->Members().size();
+  for (const std::uint32_t task : order_) members += tasks_[task].members.size();
   WorkerPool* const pool = IfItShares(pool_);
   if (pool == nullptr || order_.size() < 2 || members < kLeastShared)
     for (const std::uint32_t task : order_) RunTask(tasks_[task], step, number);
@@ -306,10 +318,18 @@ void SolverGroups::RunStep(int step, std::uint64_t number)
 
 void SolverGroups::RunTask(Task& task, int step, std::uint64_t number)
 {
-  SolverWorld& world = *task.world;
   task.contacts = 0;
-  task.is_done = !free_robots_.BeforeStep(world.Members(), task.near_pairs, step, task.solved);
+  task.is_done = !free_robots_.BeforeStep(task.members, task.near_pairs, step, task.solved);
   if (task.is_done) return;
+  task.contacts = free_robots_.PlanarStep(task.members, task.near_pairs, task.in_plane);
+  if (!task.solved.empty()) RunSolved(task, number);
+  free_robots_.AfterStep(task.members, step);
+  task.goes_too_far = IsAnyTooFar(task);
+}
+
+void SolverGroups::RunSolved(Task& task, std::uint64_t number)
+{
+  SolverWorld& world = *task.world;
   const int parts = world.PartsOfStep(step_seconds_);
   task.most_parts = std::max(task.most_parts, parts);
   for (int part = 0; part < parts; ++part)
@@ -319,9 +339,7 @@ void SolverGroups::RunTask(Task& task, int step, std::uint64_t number)
     world.Step(seconds, number);
     for (Model* model : task.solved) model->AfterStep(seconds);
   }
-  task.contacts = world.ContactCount();
-  free_robots_.AfterStep(world.Members(), step);
-  task.goes_too_far = IsAnyTooFar(task);
+  task.contacts += world.ContactCount();
 }
 
 bool SolverGroups::IsAnyTooFar() const
@@ -338,7 +356,7 @@ bool SolverGroups::IsAnyTooFar(const Task& task) const
     return is_searched_[assembly] != 0 &&
            !Contains(reach_[assembly], Grown(model->CurrentBox(), model->LargestSpeed() * step_seconds_));
   };
-  return free_robots_.IsAnyTooFar(task.world->Members()) || std::ranges::any_of(task.solved, is_too_far);
+  return free_robots_.IsAnyTooFar(task.members) || std::ranges::any_of(task.solved, is_too_far);
 }
 
 }  // namespace swarmanoid::dynamics3d

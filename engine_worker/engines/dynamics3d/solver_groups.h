@@ -1,6 +1,7 @@
 // SolverGroups: finds the groups of assemblies (ode_world.h) that can meet before a tick ends, gives each group a
-// SolverWorld of its own, and makes the steps of the tick in all of them. Groups do not depend on each other, so
-// threads and the regions of a split engine share them, and no bit depends on how. Owned by the engine.
+// SolverWorld of its own unless all its steps are in the plane (contact_free_set.h), and makes the steps of the tick in
+// all of them. Groups do not depend on each other, so threads and the regions of a split engine share them, and no bit
+// depends on how. Owned by the engine.
 #pragma once
 
 #include <cstdint>
@@ -43,8 +44,8 @@ public:
   // Makes all steps of a tick. `first_step` counts from the start of the experiment.
   void Advance(std::uint64_t first_step);
 
-  // The number of worlds with several assemblies that can meet, or with a fast one.
-  std::size_t GroupCount() const { return group_count_; }
+  // The number of groups of several assemblies that can meet, or with a fast one.
+  std::size_t GroupCount() const { return group_count_ - lone_count_; }
   // The number of contacts in the last step.
   int ContactCount() const { return contacts_; }
   // Returns into how many parts a step of the last tick was cut at most.
@@ -54,7 +55,9 @@ private:
   // A world and what is known of its members in this tick.
   struct Task
   {
-    SolverWorld* world = nullptr;
+    SolverWorld* world = nullptr;  // nullptr: of a group in the plane
+    std::vector<std::uint32_t> members;
+    PlanarSolver in_plane;
     std::vector<kinematics2d::Pair> near_pairs;  // of free_robots_
     std::vector<Model*> solved;
     int most_parts = 1;
@@ -80,7 +83,8 @@ private:
     std::vector<SolverWorld::NearAssemblies> pairs;
     std::vector<NearSolid> statics;
     std::vector<kinematics2d::Pair> near_pairs;  // of free_robots_
-    ByteWriter state;                            // of the members, before the steps
+    bool is_in_plane = false;
+    ByteWriter state;  // of the members, before the steps
     std::size_t load = 0;
     std::uint32_t region = 0;
     std::span<const char> result;
@@ -104,6 +108,7 @@ private:
   void MakeTasks(std::span<const kinematics2d::Pair> near_pairs);
   void RunStep(int step, std::uint64_t number);
   void RunTask(Task& task, int step, std::uint64_t number);
+  void RunSolved(Task& task, std::uint64_t number);
   void EndTick();
   bool IsAnyTooFar() const;
   bool IsAnyTooFar(const Task& task) const;
@@ -126,6 +131,12 @@ private:
 
   // Returns the group of an assembly, or kNoGroup.
   std::uint32_t GroupOf(std::uint32_t assembly) { return group_of_[islands_.Of(assembly)]; }
+  // Returns the group that has a world, or kNoGroup.
+  std::uint32_t GroupWithWorld(std::uint32_t assembly)
+  {
+    const std::uint32_t group = GroupOf(assembly);
+    return group == kNoGroup || is_in_plane_[group] != 0 ? kNoGroup : group;
+  }
   bool IsMovable(std::uint32_t number) const { return number < models_.size() && is_owned_[number] != 0; }
 
   Scene& scene_;
@@ -147,7 +158,8 @@ private:
   std::vector<std::uint32_t> sizes_;                // by first assembly of an island
   std::vector<std::uint32_t> group_of_;             // by first assembly of an island that is a group
   std::vector<std::vector<std::uint32_t>> groups_;  // their assemblies, ascending
-  std::size_t group_count_ = 0;
+  std::vector<std::uint8_t> is_in_plane_;           // by group
+  std::size_t group_count_ = 0, lone_count_ = 0;    // of them, robots alone in the plane
   std::vector<std::uint32_t> world_of_group_;
   std::vector<std::unique_ptr<SolverWorld>> worlds_;  // of groups
   std::vector<std::uint8_t> is_used_;                 // by world of a group

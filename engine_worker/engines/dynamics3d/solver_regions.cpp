@@ -63,6 +63,7 @@ void SolverGroups::MakeUnits(int step)
   {
     if (std::ranges::all_of(groups_[group], is_asleep)) continue;
     Unit& unit = AddUnit();
+    unit.is_in_plane = is_in_plane_[group] != 0;
     for (const std::uint32_t assembly : groups_[group]) AddMember(unit, assembly);
   }
   Unit* of_home = nullptr;
@@ -96,6 +97,7 @@ SolverGroups::Unit& SolverGroups::AddUnit()
   unit.pairs.clear();
   unit.statics.clear();
   unit.near_pairs.clear();
+  unit.is_in_plane = false;
   unit.load = 0;
   return unit;
 }
@@ -206,6 +208,7 @@ void SolverGroups::SendUnits(int from, int to, std::uint64_t first_step)
       stream.PutArray(unit.pairs);
       stream.PutArray(unit.statics);
       stream.PutArray(unit.near_pairs);
+      stream.Put(unit.is_in_plane);
       stream.PutArray(unit.state.Bytes());
     }
   };
@@ -286,7 +289,8 @@ void SolverGroups::Execute(std::span<const char> bytes, ByteWriter& result)
   pairs_.clear();
   static_pairs_.clear();
   near_pairs_.clear();
-  group_count_ = 0;
+  group_count_ = lone_count_ = 0;
+  is_in_plane_.clear();
   unit_states_.clear();
   while (!stream.AtEnd()) ReadUnit(stream);
   CheckLinks();
@@ -330,6 +334,7 @@ void SolverGroups::ReadUnit(ByteReader& stream)
     if (!is_member(pair.first) || !(is_outline || is_member(pair.second))) Refuse("an outline is another one");
     near_pairs_.push_back(pair);
   }
+  is_in_plane_.push_back(stream.Get<std::uint8_t>());
   unit_states_.push_back(stream.GetImage<char>());
   ++group_count_;
 }

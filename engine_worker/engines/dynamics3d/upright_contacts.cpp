@@ -28,24 +28,9 @@ namespace
 
 constexpr double kSameSide = 1e-5;  // m: the first body's face decides, if both overlap by as much
 
-using Corners = std::array<Vector2, 4>;  // counterclockwise
+using Corners = Prism::Corners;
 
-// A prism that stands upright.
-struct Prism
-{
-  Vector2 centre = Vector2::Zero();  // of the outline, at the height that AtHeight set
-  double middle = 0;                 // m, height of the body's centre
-  double half_height = 0;
-  Vector2 slope = Vector2::Zero();                             // how far the outline moves per metre of height
-  double radius = 0;                                           // 0: a box
-  Vector2 half_x = Vector2::Zero(), half_y = Vector2::Zero();  // of a box, from its centre to the middles of two sides
-
-  void AtHeight(double height) { centre += slope * (height - middle); }
-  Corners CornersOfBox() const
-  {
-    return {centre - half_x - half_y, centre + half_x - half_y, centre + half_x + half_y, centre - half_x + half_y};
-  }
-};
+}  // namespace
 
 std::optional<Prism> PrismOf(dGeomID geom)
 {
@@ -85,19 +70,8 @@ std::optional<Prism> PrismOf(dGeomID geom)
   return prism;
 }
 
-struct PlanePoint
+namespace
 {
-  Vector2 point = Vector2::Zero();
-  double depth = 0;  // m; negative: a gap
-};
-
-// Where two outlines meet. The normal points into the first one.
-struct PlaneContact
-{
-  Vector2 normal = Vector2::Zero();
-  std::array<PlanePoint, 2> points;
-  std::size_t count = 0;
-};
 
 Vector2 OutwardNormal(const Corners& corners, std::size_t side)
 {
@@ -213,6 +187,8 @@ PlaneContact TwoBoxes(const Prism& a, const Prism& b)
   return contact;
 }
 
+}  // namespace
+
 PlaneContact Meet(const Prism& a, const Prism& b)
 {
   if (a.radius > 0 && b.radius > 0) return TwoCircles(a, b);
@@ -222,8 +198,6 @@ PlaneContact Meet(const Prism& a, const Prism& b)
   contact.normal = -contact.normal;
   return contact;
 }
-
-}  // namespace
 
 int CollideUprightPrisms(dGeomID geom_a, dGeomID geom_b, const Vector3& way, std::span<dContactGeom> contacts)
 {

@@ -150,6 +150,27 @@ double RadiusOf(const WheeledShape& shape)
   return std::sqrt(std::max(square, edge * edge + tread * tread));
 }
 
+// Returns whether nothing upright meets a wheel before the chassis, whose outline is a disc or a box.
+bool CoversItsWheels(const WheeledShape& shape)
+{
+  if (shape.hull) return false;
+  const double edge = shape.half_track + kWheelFlank * shape.wheel_radius;
+  const double tread = std::sqrt(1 - kWheelFlank * kWheelFlank) * shape.wheel_radius;
+  if (shape.is_cylinder) return edge * edge + tread * tread <= shape.size.x() * shape.size.x();
+  return tread <= shape.size.x() / 2 && edge <= shape.size.y() / 2;
+}
+
+PlanarOutline PlanarOutlineOf(const WheeledShape& shape, const WorldSettings& settings)
+{
+  constexpr double kSafe = 0.5;
+  const double weight = (shape.chassis_mass + 2 * shape.wheel_mass) * std::sqrt(settings.gravity.squaredNorm());
+  return {.radius = shape.is_cylinder ? shape.size.x() : 0,
+          .half_size = shape.is_cylinder ? Vector2(Vector2::Zero()) : Vector2(shape.size.head<2>() / 2),
+          .low = shape.clearance,
+          .high = shape.size.z(),
+          .highest_push = kSafe * weight * std::min(ShorterReach(shape), shape.half_track) / StallForce(shape)};
+}
+
 double HighestOf(const ConvexHull& hull)
 {
   double highest = 0;
@@ -175,7 +196,9 @@ WheeledModel::WheeledModel(Scene& scene, const CSwarmanoidSpaceEntity& entity, c
       largest_free_rate_(
           KeepsItsWheelsDown(shape, scene.world.Settings(), false) ? LargestFreeSpeed(shape) / wheel_radius_ : 0),
       brakes_freely_(KeepsItsWheelsDown(shape, scene.world.Settings(), true)),
-      drive_(DriveOf(shape))
+      drive_(DriveOf(shape)),
+      can_be_planar_(brakes_freely_ && largest_free_rate_ > 0 && CoversItsWheels(shape)),
+      planar_(PlanarOutlineOf(shape, scene.world.Settings()))
 {
   OdeWorld& world = scene.world;
   const auto wheel_centre = [&](int wheel)
@@ -246,12 +269,12 @@ void WheeledModel::BeginTick()
 {
   wheel_turn_[0] = wheel_turn_[1] = 0;
   elapsed_ = 0;
-  is_free_ = false;  // to be found out from the bodies
+  motion_of_ = EMotionOf::kBodies;  // who moves it is to be found out from the bodies
 }
 
 void WheeledModel::SetLeftOut(bool left_out)
 {
-  is_free_ = false;
+  motion_of_ = EMotionOf::kBodies;
   Model::SetLeftOut(left_out);
 }
 
@@ -308,8 +331,8 @@ void WheeledModel::SaveTick(ByteWriter& state) const
   state.Put(wheel_command_);
   state.Put(wheel_turn_);
   state.Put(elapsed_);
-  state.Put(is_free_);
-  if (is_free_) state.Put(motion_);
+  state.Put(motion_of_);
+  if (!IsOnBodies()) state.Put(motion_);
 }
 
 void WheeledModel::LoadTick(ByteReader& state)
@@ -318,8 +341,8 @@ void WheeledModel::LoadTick(ByteReader& state)
   wheel_command_ = state.Get<std::array<double, 2>>();
   wheel_turn_ = state.Get<std::array<double, 2>>();
   elapsed_ = state.Get<double>();
-  is_free_ = state.Get<std::uint8_t>() != 0;
-  if (is_free_) motion_ = state.Get<PlaneMotion>();
+  motion_of_ = state.Get<EMotionOf>();
+  if (!IsOnBodies()) motion_ = state.Get<PlaneMotion>();
 }
 
 void WheeledModel::Sense(std::string_view channel, std::span<double> values) const

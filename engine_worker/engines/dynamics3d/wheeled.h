@@ -1,6 +1,7 @@
 // A robot on two driven wheels in 3D: a chassis with the wheels on it, and two casters. The footbot adds a turret and a
-// gripper; a user's kind with wheels adds nothing. The solver moves its bodies. While the robot is free, the closed
-// form of its drive computes the motion, and MoveBodies copies it to the bodies.
+// gripper; a user's kind with wheels adds nothing. ODE moves its bodies. While the robot is free, the closed form of
+// its drive computes the motion, and while it meets only upright walls and robots, PlanarSolver does. MoveBodies then
+// copies the motion to the bodies.
 #pragma once
 
 #include <array>
@@ -8,6 +9,7 @@
 #include "engine_worker/engines/dynamics3d/differential_drive.h"
 #include "engine_worker/engines/dynamics3d/jointed.h"
 #include "engine_worker/engines/dynamics3d/model.h"
+#include "engine_worker/engines/dynamics3d/planar_solver.h"
 
 namespace swarmanoid::dynamics3d
 {
@@ -33,6 +35,16 @@ struct WheeledShape
   // Returns the shape that the row of the kind describes, with the proportions of the footbot for missing values.
   // `density` (kg/m3) is used for a kind without a mass.
   static WheeledShape Of(const CSwarmanoidSpaceEntity& entity, double density);
+};
+
+// The outline of an upright robot that PlanarSolver can move: a disc, or a box.
+struct PlanarOutline
+{
+  double radius = 0;  // 0: a box
+  Vector2 half_size = Vector2::Zero();
+  double low = 0, high = 0;  // m, of the chassis
+  // A force of both motors at this height (m) lifts no wheel.
+  double highest_push = 0;
 };
 
 class WheeledModel : public Model
@@ -64,10 +76,23 @@ public:
   // Returns whether the robot rolls on level ground as its wheels turn, so that the closed form goes on where the
   // solver is.
   bool RollsFreely() const;
-  bool IsFree() const { return is_free_; }
+  bool IsFree() const { return motion_of_ == EMotionOf::kClosedForm; }
   void BecomeFree();
   void AdvanceFreely(int steps, double step_seconds);
-  // Puts the bodies where the closed form is, with its velocities.
+  // Returns whether the robot stands and moves on its wheels, in any direction, so that PlanarSolver can go on where
+  // ODE is.
+  bool StandsOnWheels() const;
+  bool IsPlanar() const { return motion_of_ == EMotionOf::kPlanarSolver; }
+  // Returns whether it meets upright things between two heights (m) at its side, and low enough not to tip.
+  bool MeetsUpright(double low, double high) const;
+  const PlanarOutline& InPlane() const { return planar_; }
+  void BecomePlanar();
+  // The planar solver moves the motion. AfterPlanarStep follows.
+  std::size_t AddTo(PlanarSolver& solver) { return solver.Add(drive_, motion_, wheel_command_); }
+  void AfterPlanarStep(double seconds);
+  const PlaneMotion& Motion() const { return motion_; }
+  double PlanarSpeed() const;  // m/s, of the middle
+  // Puts the bodies where the closed form or the planar solver is, with its velocities.
   void MoveBodies();
   // Has the solver move the bodies from where they are.
   void BecomeSolved();
@@ -76,7 +101,7 @@ protected:
   void FollowAttributes() override;
   // The wheels roll.
   void SetVelocity(const EntityVelocity& velocity) override;
-  // Called after the closed form moved the robot by `seconds`.
+  // Called after the closed form or the planar solver moved the robot by `seconds`.
   virtual void AfterFreeMotion(double seconds) { elapsed_ += seconds; }
   dBodyID Chassis() const { return scene_.world.Body(bodies_[0].number); }
   double Elapsed() const { return elapsed_; }  // s, of this tick
@@ -84,6 +109,16 @@ protected:
 private:
   dJointID Axle(std::size_t wheel) const { return scene_.world.Hinge(axles_[wheel]); }
   std::array<double, 2> WheelRates() const;
+  bool IsOnBodies() const { return motion_of_ == EMotionOf::kBodies; }
+  void StartMotion();
+
+  // What holds the motion of the robot.
+  enum class EMotionOf : std::uint8_t
+  {
+    kBodies,  // of ODE
+    kClosedForm,
+    kPlanarSolver
+  };
 
   double wheel_radius_;
   double radius_;
@@ -95,8 +130,10 @@ private:
   int axles_[2] = {0, 0};                         // hinges: left, right
   std::array<double, 2> wheel_command_ = {0, 0};  // rad/s
   std::array<double, 2> wheel_turn_ = {0, 0};     // rad, of the last tick
-  bool is_free_ = false;
-  PlaneMotion motion_;  // while it is free
+  bool can_be_planar_ = false;
+  PlanarOutline planar_;
+  EMotionOf motion_of_ = EMotionOf::kBodies;
+  PlaneMotion motion_;  // unless its bodies have it
   double elapsed_ = 0;
 };
 

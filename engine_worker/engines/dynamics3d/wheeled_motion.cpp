@@ -1,11 +1,11 @@
-// Problem: a robot changes between the solver and the closed form of its drive, without a jump.
+// Problem: a robot changes between ODE, the planar solver and the closed form of its drive, without a jump.
 //
 // Method: it may become free if its bodies already move as the closed form would: upright, at ground level, with no
-// other speed than that of its wheels. Then motion_ takes over pose and wheel rates, and the solver leaves its bodies
-// out. MoveBodies puts all bodies where the closed form is at the end of a tick: it turns them rigidly about the
-// vertical, and gives them the speeds of the arc.
+// other speed than that of its wheels. In the planar solver it may slide and turn in any way. Then motion_ takes over
+// pose, wheel rates and velocity, and ODE leaves its bodies out. MoveBodies puts all bodies where the motion is at the
+// end of a tick: it turns them rigidly about the vertical, and gives them the speeds of the motion.
 //
-// Invariant: height and lean of the bodies do not change while the robot is free.
+// Invariant: height and lean of the bodies do not change while ODE does not move them.
 #include <algorithm>
 #include <cmath>
 
@@ -26,15 +26,18 @@ constexpr double kOtherTurn = 0.03;                 // rad/s
 // their commands.
 constexpr double kSteady = 0.02;
 
+// The planar solver moves robots that meet at this height (m) of their sides, or more.
+constexpr double kLeastSide = 0.01;
+
 double TiltCosine(dBodyID body) { return dBodyGetRotation(body)[10]; }
 
 }  // namespace
 
-bool WheeledModel::IsUpright() const { return is_free_ || TiltCosine(Chassis()) > kUprightCosine; }
+bool WheeledModel::IsUpright() const { return !IsOnBodies() || TiltCosine(Chassis()) > kUprightCosine; }
 
 Vector2 WheeledModel::GroundPoint() const
 {
-  if (is_free_) return {motion_.x, motion_.y};
+  if (!IsOnBodies()) return {motion_.x, motion_.y};
   const dReal* position = dBodyGetPosition(Chassis());
   return {position[0], position[1]};
 }
@@ -42,7 +45,7 @@ Vector2 WheeledModel::GroundPoint() const
 Box WheeledModel::CurrentBox() const
 {
   Box box = Model::CurrentBox();
-  if (!is_free_) return box;
+  if (IsOnBodies()) return box;
   for (std::size_t axis = 0; axis < 2; ++axis)
   {
     const double middle = axis == 0 ? motion_.x : motion_.y;
@@ -60,22 +63,45 @@ double WheeledModel::LargestSpeed() const
   double rate = 0;
   for (std::size_t wheel = 0; wheel < 2; ++wheel)
     rate = std::max({rate, std::abs(rates[wheel]), std::abs(wheel_command_[wheel])});
-  double square = 0;
-  if (!is_free_) square = VectorOf(dBodyGetLinearVel(Chassis())).squaredNorm();
-  return std::max(rate * wheel_radius_, std::sqrt(square));
+  double speed = 0;
+  if (IsOnBodies())
+    speed = std::sqrt(VectorOf(dBodyGetLinearVel(Chassis())).squaredNorm());
+  else if (IsPlanar())
+    speed = PlanarSpeed();
+  return std::max(rate * wheel_radius_, speed);
 }
 
 std::array<double, 2> WheeledModel::WheelRates() const
 {
-  if (is_free_) return motion_.rates;
+  if (!IsOnBodies()) return motion_.rates;
   return {dJointGetHingeAngleRate(Axle(0)), dJointGetHingeAngleRate(Axle(1))};
+}
+
+double WheeledModel::PlanarSpeed() const { return std::sqrt(motion_.vx * motion_.vx + motion_.vy * motion_.vy); }
+
+bool WheeledModel::MeetsUpright(double low, double high) const
+{
+  const double from = std::max(low, planar_.low);
+  return std::min(high, planar_.high) - from > kLeastSide && from < planar_.highest_push;
+}
+
+bool WheeledModel::StandsOnWheels() const
+{
+  if (!can_be_planar_) return false;
+  if (!IsOnBodies()) return true;  // until the tick ends
+  const std::array<double, 2> rates = WheelRates();
+  for (std::size_t wheel = 0; wheel < 2; ++wheel)
+    if (std::max(std::abs(rates[wheel]), std::abs(wheel_command_[wheel])) > largest_free_rate_) return false;
+  const dBodyID body = Chassis();
+  const double height = dBodyGetPosition(body)[2] - MainOffset().position.z();
+  if (TiltCosine(body) < kFreeCosine || height < kLowest || height > kHighest) return false;
+  const dReal* spin = dBodyGetAngularVel(body);
+  return std::abs(dBodyGetLinearVel(body)[2]) < kOtherSpeed && std::abs(spin[0]) < kOtherTurn &&
+         std::abs(spin[1]) < kOtherTurn;
 }
 
 bool WheeledModel::RollsFreely() const
 {
-  const dBodyID body = Chassis();
-  const double height = dBodyGetPosition(body)[2] - MainOffset().position.z();
-  if (TiltCosine(body) < kFreeCosine || height < kLowest || height > kHighest) return false;
   PlaneMotion motion;
   motion.rates = WheelRates();
   for (std::size_t wheel = 0; wheel < 2; ++wheel)
@@ -84,29 +110,73 @@ bool WheeledModel::RollsFreely() const
     if (std::max(std::abs(motion.rates[wheel]), std::abs(command)) > largest_free_rate_) return false;
     if (!brakes_freely_ && std::abs(command - motion.rates[wheel]) > kSteady * largest_free_rate_) return false;
   }
+  const double speed = drive_.Speed(motion);
+  const double turn = drive_.Turn(motion);
+  if (!IsOnBodies())
+  {
+    const double forward = motion_.cosine * motion_.vx + motion_.sine * motion_.vy;
+    const double left = motion_.cosine * motion_.vy - motion_.sine * motion_.vx;
+    return std::max(std::abs(forward - speed), std::abs(left)) < kOtherSpeed &&
+           std::abs(motion_.spin - turn) < kOtherTurn;
+  }
+  const dBodyID body = Chassis();
+  const double height = dBodyGetPosition(body)[2] - MainOffset().position.z();
+  if (TiltCosine(body) < kFreeCosine || height < kLowest || height > kHighest) return false;
   const Vector3 velocity = VectorFromWorld(body, VectorOf(dBodyGetLinearVel(body)));
   const Vector3 spin = VectorOf(dBodyGetAngularVel(body));
-  const Vector3 other = velocity - Vector3(drive_.Speed(motion), 0, 0);
-  const Vector3 other_spin = spin - Vector3(0, 0, drive_.Turn(motion));
+  const Vector3 other = velocity - Vector3(speed, 0, 0);
+  const Vector3 other_spin = spin - Vector3(0, 0, turn);
   return other.cwiseAbs().maxCoeff() < kOtherSpeed && other_spin.cwiseAbs().maxCoeff() < kOtherTurn;
 }
 
-void WheeledModel::BecomeFree()
+// Takes over the motion of the bodies, which ODE then leaves out.
+void WheeledModel::StartMotion()
 {
   const std::array<double, 2> rates = {dJointGetHingeAngleRate(Axle(0)), dJointGetHingeAngleRate(Axle(1))};
   const dReal* position = dBodyGetPosition(Chassis());
   const dReal* rotation = dBodyGetRotation(Chassis());
+  const dReal* velocity = dBodyGetLinearVel(Chassis());
   const double length = std::sqrt(rotation[0] * rotation[0] + rotation[4] * rotation[4]);
-  motion_ = {
-      .x = position[0], .y = position[1], .cosine = rotation[0] / length, .sine = rotation[4] / length, .rates = rates};
-  is_free_ = true;
+  motion_ = {.x = position[0],
+             .y = position[1],
+             .cosine = rotation[0] / length,
+             .sine = rotation[4] / length,
+             .rates = rates,
+             .vx = velocity[0],
+             .vy = velocity[1],
+             .spin = dBodyGetAngularVel(Chassis())[2]};
   for (const PlacedBody& placed : bodies_) scene_.world.SetLeftOut(placed.number, true);
+}
+
+void WheeledModel::BecomeFree()
+{
+  if (IsOnBodies()) StartMotion();
+  motion_of_ = EMotionOf::kClosedForm;
+}
+
+void WheeledModel::BecomePlanar()
+{
+  if (IsOnBodies()) StartMotion();
+  if (IsFree())
+  {
+    const double speed = drive_.Speed(motion_);
+    motion_.vx = speed * motion_.cosine;
+    motion_.vy = speed * motion_.sine;
+    motion_.spin = drive_.Turn(motion_);
+  }
+  motion_of_ = EMotionOf::kPlanarSolver;
 }
 
 void WheeledModel::BecomeSolved()
 {
-  is_free_ = false;
+  motion_of_ = EMotionOf::kBodies;
   for (const PlacedBody& placed : bodies_) scene_.world.SetLeftOut(placed.number, false);
+}
+
+void WheeledModel::AfterPlanarStep(double seconds)
+{
+  for (std::size_t wheel = 0; wheel < 2; ++wheel) wheel_turn_[wheel] += motion_.turned[wheel];
+  AfterFreeMotion(seconds);
 }
 
 void WheeledModel::AdvanceFreely(int steps, double step_seconds)
@@ -126,8 +196,9 @@ void WheeledModel::MoveBodies()
   const Vector3 from = VectorOf(dBodyGetPosition(Chassis()));
   // A robot that stands still keeps its pose to the last bit.
   const bool has_moved = turn_sine != 0 || motion_.x != from.x() || motion_.y != from.y();
-  const Vector3 velocity = drive_.Speed(motion_) * Vector3(motion_.cosine, motion_.sine, 0);
-  const double spin = drive_.Turn(motion_);
+  const Vector3 velocity = IsFree() ? Vector3(drive_.Speed(motion_) * Vector3(motion_.cosine, motion_.sine, 0))
+                                    : Vector3(motion_.vx, motion_.vy, 0);
+  const double spin = IsFree() ? drive_.Turn(motion_) : motion_.spin;
   for (std::size_t k = 0; k < bodies_.size(); ++k)
   {
     const dBodyID body = scene_.world.Body(bodies_[k].number);
