@@ -169,7 +169,7 @@ void PlanarSolver::Solve(int iterations)
 bool PlanarSolver::Drive(Robot& robot)
 {
   double largest = 0;
-  // Of what stops its sliding. As heavy as forward, so that a slipping wheel rubs against its slip.
+  // Each wheel stops the sliding with the mass that it drives forward, so that it rubs against its slip.
   const double half = -robot.left * robot.ground_mass;
   for (std::size_t wheel = 0; wheel < 2; ++wheel)
   {
