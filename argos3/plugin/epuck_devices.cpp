@@ -291,7 +291,7 @@ public:
     for (const std::size_t i : order_)
     {
       if (left <= 0) break;
-      if (!Read(packets[i], received_[i])) continue;
+      if (!ReadPacket(packets[i], received_[i])) continue;
       --left;
       if (loss_ > 0 && robot_.GetRandom().Uniform() < loss_) continue;
       m_tPackets.push_back(&received_[i]);
@@ -302,7 +302,7 @@ private:
   using Packet = swarmanoid::CCI_RangeAndBearingSensor::Packet;
 
   // Returns false for messages of other robots, and if the emitter that looks here is off.
-  bool Read(const Packet& packet, SReceivedPacket& received)
+  bool ReadPacket(const Packet& packet, SReceivedPacket& received)
   {
     constexpr std::size_t kCommon = swarmanoid::CCI_RangeAndBearingActuator::NUM_BYTES;
     const std::span<const std::uint8_t> further = ours_.GetFurtherBytes(packet);

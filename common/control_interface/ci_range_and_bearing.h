@@ -34,7 +34,7 @@ public:
   {
     RequireLength(bytes.size());
     Message message{};
-    std::copy(bytes.begin(), bytes.end(), message.begin());
+    std::copy_n(bytes.begin(), std::min(bytes.size(), message.size()), message.begin());
     SetMessage(message);
   }
 
