@@ -74,18 +74,17 @@ class Bench:
         return [str(word) for word in (build / "bin" / "swarmanoid", "run", file, "--ticks", ticks, "--no-visualisers",
                                        "--output", self.folder / f"run_{self.runs}", *options)]
 
-    def finish(self, words, since=0, keep=False):
-        """Ticks a second from tick `since` on. `keep`: the folder of the run stays."""
+    def finish(self, words, since=0, keep=False, last_line=False):
+        """Ticks a second from tick `since` on. `keep`: the folder of the run stays. `last_line`: instead, what the command says last."""
         with open(self.folder / "said", "w+", encoding="utf-8") as said:
             process = subprocess.Popen([*words, "--quiet"], stdout=said, stderr=subprocess.STDOUT,
                                        env=os.environ | {"SWARMANOID_SHARED_FOLDER": str(self.folder)})
             try:
-                _, status, usage = os.wait4(process.pid, 0)
+                process.wait()
             except BaseException:  # interrupted: nothing stays behind
                 process.send_signal(signal.SIGINT)
                 process.wait()
                 raise
-            process.returncode = os.waitstatus_to_exitcode(status)
             said.seek(0)
             text = said.read()
         if not keep:
@@ -93,7 +92,8 @@ class Bench:
         finished = FINISHED.search(text)
         if process.returncode != 0 or not finished:
             sys.exit(f"{' '.join(words)} failed:\n{text}")
-        self.memory = usage.ru_maxrss * 1024 / 1e6
+        if last_line:
+            return text.splitlines()[-1]
         # Shorter times than the last digit are no time.
         return (int(finished.group(1)) - since) / max(float(finished.group(4)), 1e-6)
 
@@ -101,9 +101,15 @@ class Bench:
         return lambda build: self.finish(self.words(build, file(build), ticks, "--single-process", *options))
 
     def single_memory(self, file, ticks):
+        """MB. A small program starts the run, because Linux counts also what the starting one had in memory."""
+        starter = """import os, sys
+_, status, usage = os.wait4(os.posix_spawn(sys.argv[1], sys.argv[1:], os.environ), 0)
+print(usage.ru_maxrss)
+sys.exit(os.waitstatus_to_exitcode(status))"""
+
         def measure(build):
-            self.finish(self.words(build, file(build), ticks, "--single-process", "--threads", 1))
-            return self.memory
+            words = self.words(build, file(build), ticks, "--single-process", "--threads", 1)
+            return float(self.finish([sys.executable, "-S", "-E", "-c", starter, *words], last_line=True)) * 1024 / 1e6
         return measure
 
     def cluster_memory(self, file, ticks):
