@@ -14,7 +14,7 @@
 #include "common/experiment/urdf_kind.h"
 #include "common/plugins/elf_file.h"
 #include "common/plugins/library.h"
-#include "common/version/version.h"
+#include "common/plugins/own_library.h"
 
 namespace swarmanoid
 {
@@ -99,14 +99,8 @@ void ForEachDataFile(const Experiment& experiment, Take take)
 
 std::string ReadOwnBuild()
 {
-  const std::string folder = OwnLibraryFolder();
   std::string builds;
-  for (const char* name : kOwnLibraries)
-  {
-    const std::string file =
-        fmt::format("{}/libswarmanoid_{}.so.{}.{}", folder, name, SWARMANOID_VERSION_MAJOR, SWARMANOID_VERSION_MINOR);
-    builds += BuildOfFile(file).substr(0, 16) + ".";
-  }
+  for (const char* name : kOwnLibraries) builds += BuildOfFile(OwnLibraryFile(name)).substr(0, 16) + ".";
   return builds;
 }
 

@@ -12,10 +12,15 @@
 namespace swarmanoid
 {
 
+std::string OwnLibraryFile(const std::string& name)
+{
+  return fmt::format("{}/libswarmanoid_{}.so.{}.{}", OwnLibraryFolder(), name, SWARMANOID_VERSION_MAJOR,
+                     SWARMANOID_VERSION_MINOR);
+}
+
 void* FunctionOfOwnLibrary(const std::string& name, const char* function)
 {
-  void* const library = OpenLibrary(fmt::format("{}/libswarmanoid_{}.so.{}.{}", OwnLibraryFolder(), name,
-                                                SWARMANOID_VERSION_MAJOR, SWARMANOID_VERSION_MINOR));
+  void* const library = OpenLibrary(OwnLibraryFile(name));
   void* const found = library == nullptr ? nullptr : dlsym(library, function);
   if (found == nullptr) throw std::runtime_error(dlerror());
   return found;

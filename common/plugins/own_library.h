@@ -6,8 +6,11 @@
 namespace swarmanoid
 {
 
-// Returns the address of an extern "C" function of the library libswarmanoid_NAME.so of this version, which it loads.
-// The library stays loaded. Throws std::runtime_error with the reason.
+// Returns the file of the library libswarmanoid_NAME.so of this version.
+std::string OwnLibraryFile(const std::string& name);
+
+// Returns the address of an extern "C" function of that library, which it loads. The library stays loaded.
+// Throws std::runtime_error with the reason.
 void* FunctionOfOwnLibrary(const std::string& name, const char* function);
 
 }  // namespace swarmanoid

@@ -76,7 +76,7 @@ std::string CommandLineComplaint(const CLI::App& app, const CLI::Error& error)
   std::string near = DidYouMean(word, options);
   if (word.size() == 2)  // a letter of other programs, as in -o
   {
-    std::erase_if(options, [&](const std::string& one) { return one.find("-" + word) != 0; });
+    std::erase_if(options, [&](const std::string& one) { return !one.starts_with("-" + word); });
     if (!options.empty()) near = fmt::format("; its options with that letter: {}.", Listed(options));
   }
   if (!near.empty()) return fmt::format("{} does not take {}{} All options: {} --help", name, Quoted(word), near, name);

@@ -16,9 +16,9 @@ RunActors::RunActors(const Experiment& experiment)
     kept.id = engine.id;
     kept.tag = engine.tag;
   }
-  std::map<std::string, std::uint16_t> numbers;
+  std::map<std::string, std::uint32_t> numbers;
   for (const ControllerConfiguration& controller : experiment.controllers)
-    numbers.emplace(controller.id, static_cast<std::uint16_t>(numbers.size()));
+    numbers.emplace(controller.id, static_cast<std::uint32_t>(numbers.size()));
   id_starts_.reserve(experiment.entities.size());
   controllers_.reserve(experiment.entities.size());
   for (const EntityConfiguration& entity : experiment.entities)

@@ -23,7 +23,7 @@ public:
   bool MayFail(std::uint32_t robot) const;
 
 private:
-  static constexpr std::uint16_t kNoController = std::numeric_limits<std::uint16_t>::max();
+  static constexpr std::uint32_t kNoController = std::numeric_limits<std::uint32_t>::max();
 
   // Returns the controller of an entity, or nullptr.
   const ControllerConfiguration* ControllerOf(std::uint32_t entity) const;
@@ -31,7 +31,7 @@ private:
   Experiment without_entities_;
   std::string ids_;  // of the entities, each with a zero at its end
   std::vector<std::uint32_t> id_starts_;
-  std::vector<std::uint16_t> controllers_;  // by entity
+  std::vector<std::uint32_t> controllers_;  // by entity
 };
 
 }  // namespace swarmanoid

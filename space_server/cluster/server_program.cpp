@@ -605,7 +605,7 @@ void ServerProgram::PublishEnd()
   if (BeginsAgain()) return;
   const auto now = Clock::now();
   snapshot_.last = true;
-  if (views_.HasViewers()) SendView(now);
+  if (views_.Viewers() > 0) SendView(now);
   views_.SendStatus(Status(RunStatus::Phase::kFinished, now), now);
 }
 

@@ -78,7 +78,7 @@ ViewPublisher::Clock::duration ViewPublisher::ViewPeriod(Clock::time_point now) 
 
 bool ViewPublisher::ViewIsDue(std::uint64_t tick, Clock::time_point now)
 {
-  const unsigned readers = views_.Readers() + grants_.ViewReaders();
+  const unsigned readers = Viewers();
   const bool newcomers = TakeAskedFirst() || readers > viewers_;
   viewers_ = readers;
   if (readers == 0) return false;

@@ -27,8 +27,8 @@ public:
   ViewPublisher(ServerSession& session, AccessGrants& grants, std::function<void()> woken);
   ~ViewPublisher();
 
-  // Returns whether somebody reads views.
-  bool HasViewers() const { return views_.Readers() + grants_.ViewReaders() > 0; }
+  // Returns the number of readers of views.
+  unsigned Viewers() const { return views_.Readers() + grants_.ViewReaders(); }
   // Returns true if a view is due. The first one is due when an observer has joined. Later ones come at the requested
   // rate during ticks, and for some seconds after a join or a reply.
   bool ViewIsDue(std::uint64_t tick, Clock::time_point now);

@@ -365,20 +365,12 @@ void SortByPlace(const Distribution& distribution, Experiment& experiment)
 
   std::vector<std::uint32_t> new_index(distribution.count);
   for (std::uint32_t k = 0; k < places.size(); ++k) new_index[places[k].index - first] = first + k;
-  // Moves the entities around each cycle of the permutation: a second list of them would take much memory.
-  std::vector<bool> is_moved(distribution.count);
+  // They change places one by one, since a second list of them would take much memory.
   for (std::uint32_t k = 0; k < places.size(); ++k)
   {
-    if (is_moved[k]) continue;
-    EntityConfiguration carried = std::move(experiment.entities[first + k]);
-    std::uint32_t to = k;
-    for (std::uint32_t from = places[to].index - first; from != k; from = places[to].index - first)
-    {
-      experiment.entities[first + to] = std::move(experiment.entities[first + from]);
-      is_moved[std::exchange(to, from)] = true;
-    }
-    experiment.entities[first + to] = std::move(carried);
-    is_moved[to] = true;
+    std::uint32_t from = places[k].index - first;
+    while (from < k) from = places[from].index - first;  // an earlier change has put it there
+    if (from != k) std::swap(experiment.entities[first + k], experiment.entities[first + from]);
   }
   for (EngineConfiguration& engine : experiment.engines)
   {

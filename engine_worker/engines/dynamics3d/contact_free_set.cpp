@@ -137,46 +137,10 @@ bool ContactFreeSet::HasLevelGround() const
 
 bool ContactFreeSet::IsBesideRobots(const Box& box) const { return box[5] > -kPushed && box[4] < top_ + kPushed; }
 
-std::vector<StaticOutline> ContactFreeSet::StaticOutlines() const
+// Returns the outlines of holes and static solids, and sets uprights_ by them.
+std::vector<StaticOutline> ContactFreeSet::FindStatics()
 {
   std::vector<StaticOutline> outlines = holes_;
-  for (const auto& solid : scene_.world.Solids())
-  {
-    if (dGeomGetBody(solid->geom) != nullptr) continue;
-    if (dGeomGetClass(solid->geom) == dPlaneClass)
-    {
-      dVector4 plane;
-      dGeomPlaneGetParams(solid->geom, plane);
-      if (std::abs(plane[2]) < 1e-9) outlines.push_back(BehindWall(plane));
-      continue;
-    }
-    std::array<double, 6> box;
-    dGeomGetAABB(solid->geom, box.data());
-    if (IsBesideRobots(box)) outlines.push_back(OutlineOf(solid->geom, box));
-  }
-  return outlines;
-}
-
-void ContactFreeSet::Configure()
-{
-  solids_ = scene_.world.Solids().size();
-  has_level_ground_ = !solve_all_ && HasLevelGround();
-  if (!has_level_ground_) return;
-  outlines_.assign(bodies_.size(), {});
-  for (std::size_t k = 0; k < bodies_.size(); ++k)
-  {
-    // The cells cover the arena, wherever the bodies are.
-    const Vector3 corner = k % 2 == 0 ? Vector3::Zero() : scene_.space.GetExperiment().arena_size;
-    const Vector3 place = scene_.frame.PointToLocal(corner);
-    outlines_[k].whole = {place.x(), place.y(), bodies_[k].radius, 0};
-  }
-  isolation_.Configure(outlines_, StaticOutlines(), kFastest * steps_ * step_seconds_);
-  SetUprights();
-}
-
-// In the order of StaticOutlines.
-void ContactFreeSet::SetUprights()
-{
   uprights_.assign(holes_.size(), {});
   for (const auto& solid : scene_.world.Solids())
   {
@@ -188,6 +152,7 @@ void ContactFreeSet::SetUprights()
       dVector4 plane;
       dGeomPlaneGetParams(solid->geom, plane);
       if (std::abs(plane[2]) >= 1e-9) continue;
+      outlines.push_back(BehindWall(plane));
       upright.is_upright = true;
       upright.low = -kFarAway;
       upright.high = kFarAway;
@@ -199,6 +164,7 @@ void ContactFreeSet::SetUprights()
       std::array<double, 6> box;
       dGeomGetAABB(solid->geom, box.data());
       if (!IsBesideRobots(box)) continue;
+      outlines.push_back(OutlineOf(solid->geom, box));
       const std::optional<Prism> prism = PrismOf(solid->geom);
       upright.is_upright = prism.has_value() && prism->slope.norm() < 1e-9;
       if (upright.is_upright)
@@ -216,6 +182,23 @@ void ContactFreeSet::SetUprights()
     }
     uprights_.push_back(upright);
   }
+  return outlines;
+}
+
+void ContactFreeSet::Configure()
+{
+  solids_ = scene_.world.Solids().size();
+  has_level_ground_ = !solve_all_ && HasLevelGround();
+  if (!has_level_ground_) return;
+  outlines_.assign(bodies_.size(), {});
+  for (std::size_t k = 0; k < bodies_.size(); ++k)
+  {
+    // The cells cover the arena, wherever the bodies are.
+    const Vector3 corner = k % 2 == 0 ? Vector3::Zero() : scene_.space.GetExperiment().arena_size;
+    const Vector3 place = scene_.frame.PointToLocal(corner);
+    outlines_[k].whole = {place.x(), place.y(), bodies_[k].radius, 0};
+  }
+  isolation_.Configure(outlines_, FindStatics(), kFastest * steps_ * step_seconds_);
 }
 
 void ContactFreeSet::BeginTick()

@@ -94,7 +94,7 @@ private:
     bool IsFree() const { return robot != nullptr && robot->IsFree(); }
     bool IsPlanar() const { return robot != nullptr && robot->IsPlanar(); }
   };
-  // What never moves, as the planar solver meets it.
+  // It describes a thing that never moves, as the planar solver meets it.
   struct Upright
   {
     bool is_upright = false;           // else ODE solves all that comes near
@@ -109,12 +109,11 @@ private:
 
   void Configure();
   bool HasLevelGround() const;
-  std::vector<StaticOutline> StaticOutlines() const;
+  std::vector<StaticOutline> FindStatics();
   // Returns whether a box, of heights in [4] and [5], is not above or below all robots on wheels.
   bool IsBesideRobots(const Box& box) const;
   std::array<double, 6> BoxOf(const Body& body) const { return scene_.world.BoxOf(body.model->MainBody()); }
   dBodyID MainBodyOf(const Body& body) const { return scene_.world.Body(body.model->MainBody()); }
-  void SetUprights();
   void Search(int step);
   void FindInPlane(int step);
   bool MeetInPlane(const Body& robot, std::uint32_t other) const;

@@ -190,7 +190,7 @@ bool PlanarSolver::Drive(Robot& robot)
       along *= part;
       across *= part;
     };
-    // What brings the rim to its command.
+    // This impulse brings the rim to its command.
     const auto motor_wanted = [&]
     { return robot.motor[wheel] + robot.rim_mass * (robot.command[wheel] - rim) + along - robot.along[wheel]; };
     hold((robot.command[wheel] - ground) * robot.ground_mass);

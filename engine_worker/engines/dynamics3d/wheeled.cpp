@@ -134,6 +134,13 @@ bool KeepsItsWheelsDown(const WheeledShape& shape, const WorldSettings& settings
          2 * across * height < weight * shape.half_track;
 }
 
+// Returns the corner of a wheel's tread that is farthest from the middle of the robot.
+Vector2 CornerOfTread(const WheeledShape& shape)
+{
+  return {std::sqrt(1 - kWheelFlank * kWheelFlank) * shape.wheel_radius,
+          shape.half_track + kWheelFlank * shape.wheel_radius};
+}
+
 double RadiusOf(const WheeledShape& shape)
 {
   double square = shape.size.x() * shape.size.x();
@@ -145,19 +152,16 @@ double RadiusOf(const WheeledShape& shape)
   else if (!shape.is_cylinder)
     square = shape.size.head<2>().squaredNorm() / 4;
   // The treads of the wheels touch the ground, and their edges may stand out beyond the chassis.
-  const double edge = shape.half_track + kWheelFlank * shape.wheel_radius;
-  const double tread = std::sqrt(1 - kWheelFlank * kWheelFlank) * shape.wheel_radius;
-  return std::sqrt(std::max(square, edge * edge + tread * tread));
+  return std::sqrt(std::max(square, CornerOfTread(shape).squaredNorm()));
 }
 
 // Returns whether nothing upright meets a wheel before the chassis, whose outline is a disc or a box.
 bool CoversItsWheels(const WheeledShape& shape)
 {
   if (shape.hull) return false;
-  const double edge = shape.half_track + kWheelFlank * shape.wheel_radius;
-  const double tread = std::sqrt(1 - kWheelFlank * kWheelFlank) * shape.wheel_radius;
-  if (shape.is_cylinder) return edge * edge + tread * tread <= shape.size.x() * shape.size.x();
-  return tread <= shape.size.x() / 2 && edge <= shape.size.y() / 2;
+  const Vector2 corner = CornerOfTread(shape);
+  if (shape.is_cylinder) return corner.squaredNorm() <= shape.size.x() * shape.size.x();
+  return corner.x() <= shape.size.x() / 2 && corner.y() <= shape.size.y() / 2;
 }
 
 PlanarOutline PlanarOutlineOf(const WheeledShape& shape, const WorldSettings& settings)

@@ -112,7 +112,7 @@ private:
   bool IsOnBodies() const { return motion_of_ == EMotionOf::kBodies; }
   void StartMotion();
 
-  // What holds the motion of the robot.
+  // It says where the motion of the robot is kept.
   enum class EMotionOf : std::uint8_t
   {
     kBodies,  // of ODE
