@@ -29,6 +29,8 @@ struct MoveRequest
   bool present = true;  // false: the entity leaves the arena, and the pose is its waiting pose
 };
 
+class WorkerPool;
+
 class SpaceServer
 {
 public:
