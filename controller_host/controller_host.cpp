@@ -59,7 +59,7 @@ struct ControllerHost::Batches
     std::unique_ptr<SensorBatch> batch;
     ChannelSlice slice;
     Actor actor;
-    int part = kWhole;                                 // of a device that is split among threads: which of them runs it
+    int part = kWhole;                                 // of a device that is split among threads: which one it is
     std::pair<std::uint32_t, std::uint32_t> number{};  // of the controller, and of its sensor
     std::vector<std::size_t> robots{};                 // places in robots_
     OnDemandSensor* on_demand = nullptr;               // the batch, if its readings are made so
@@ -84,8 +84,8 @@ struct ControllerHost::Batches
   AttributeOrder order;
   WorkerPool* pool = nullptr;               // none: one thread does it all
   bool split = false;                       // some sensor is
-  std::vector<Failure> failures;            // of sensors, by thread
-  std::vector<std::exception_ptr> stopped;  // what stopped the controllers of a thread
+  std::vector<Failure> failures;            // of sensors, by part
+  std::vector<std::exception_ptr> stopped;  // what stopped the controllers of a part
 };
 
 template <class Do>
@@ -122,10 +122,10 @@ ChannelSlice SliceOf(const std::vector<ChannelBlock>& blocks, const std::string&
 }
 
 // Returns the number of parts into which a sensor of `robots` is split. Each part has a small cost of its own.
-std::size_t PartsOf(std::size_t robots, unsigned threads)
+std::size_t PartsOf(std::size_t robots, const WorkerPool* pool)
 {
-  constexpr std::size_t kLeast = 400;  // robots of a part
-  return std::clamp<std::size_t>(robots / kLeast, 1, threads);
+  constexpr std::size_t kLeast = 128;  // robots of a part
+  return pool == nullptr ? 1 : std::clamp<std::size_t>(robots / kLeast, 1, pool->Parts());
 }
 
 // A controller that fails more often, never with more ticks between, is not started again.
@@ -376,8 +376,7 @@ void ControllerHost::MakeBatches(const ControllerConfiguration& configuration, c
     const auto* entry = PluginRegistry<SensorBatch>::Instance().Find(device.type, device.implementation);
     if (entry == nullptr) throw unknown(device);
     const bool may_split = dynamic_cast<SplitSensor*>(entry->create().get()) != nullptr;
-    const std::size_t parts =
-        may_split && batches_->pool != nullptr ? PartsOf(entities.size(), batches_->pool->Threads()) : 1;
+    const std::size_t parts = may_split ? PartsOf(entities.size(), batches_->pool) : 1;
     for (std::size_t part = 0; part < parts; ++part)
     {
       const std::size_t first = entities.size() * part / parts;
@@ -563,7 +562,7 @@ void ControllerHost::UpdateParts(std::uint64_t tick)
 {
   std::vector<Batches::Failure>& failures = batches_->failures;
   WorkerPool& pool = *batches_->pool;
-  failures.assign(pool.Threads(), {});
+  failures.assign(pool.Parts(), {});
   const auto update = [&](unsigned part)
   {
     for (Batches::Sensor& sensor : batches_->sensors)
@@ -589,9 +588,9 @@ void ControllerHost::UpdateParts(std::uint64_t tick)
   };
   refresh(IfItShares(&pool));
   if (pool.Shares())
-    pool.Run(update);
+    pool.Run(pool.Parts(), update);
   else
-    for (unsigned part = 0; part < pool.Threads(); ++part) update(part);
+    for (unsigned part = 0; part < pool.Parts(); ++part) update(part);
   // The failure of the first robot is reported, whichever thread was first.
   for (const Batches::Failure& failure : failures)
     if (failure.what != nullptr)
@@ -698,23 +697,23 @@ void ControllerHost::StepInTurn(std::span<const std::uint32_t> robots, std::uint
 void ControllerHost::StepInParallel(std::uint64_t tick)
 {
   const SharedActivity activity(ActivityStep::kControlStep, tick);
-  const std::size_t threads = batches_->pool->Threads();
-  batches_->stopped.assign(threads, nullptr);
-  batches_->pool->Run(
-      [&](unsigned k)
-      {
-        const std::size_t begin = parallel_.size() * k / threads;
-        const std::size_t end = parallel_.size() * (k + 1) / threads;
-        SharedActivity::Thread of_thread(k);
-        try
-        {
-          ControlSteps(std::span(parallel_).subspan(begin, end - begin), tick, of_thread);
-        }
-        catch (...)
-        {
-          batches_->stopped[k] = std::current_exception();
-        }
-      });
+  const std::size_t parts = batches_->pool->Parts();
+  batches_->stopped.assign(parts, nullptr);
+  batches_->pool->Run(batches_->pool->Parts(),
+                      [&](unsigned k, unsigned thread)
+                      {
+                        const std::size_t begin = parallel_.size() * k / parts;
+                        const std::size_t end = parallel_.size() * (k + 1) / parts;
+                        SharedActivity::Thread of_thread(thread);
+                        try
+                        {
+                          ControlSteps(std::span(parallel_).subspan(begin, end - begin), tick, of_thread);
+                        }
+                        catch (...)
+                        {
+                          batches_->stopped[k] = std::current_exception();
+                        }
+                      });
   // The failure of the first robot is reported, whichever thread was first.
   for (const std::exception_ptr& stopped : batches_->stopped)
     if (stopped != nullptr) std::rethrow_exception(stopped);

@@ -30,6 +30,7 @@ EngineWorker::EngineWorker(const CSwarmanoidSpace& space, const Assignment& assi
     : space_(space),
       assignment_(assignment),
       layout_(assignment.engines[engine]),
+      pool_(pool),
       actor_(EngineActor(space.GetExperiment(), engine)),
       members_(space, assignment, static_cast<std::uint32_t>(engine))
 {
@@ -170,10 +171,12 @@ void EngineWorker::KeepInactive()
 // The server checks all results again. This check names the mistake to the engine's author earlier.
 void EngineWorker::CheckResults() const
 {
-  CheckPoses(space_, layout_.owned, update_.poses);
+  WorkerPool* const pool = IfItShares(pool_);
+  CheckPoses(space_, layout_.owned, update_.poses, pool);
   CheckAttributes(space_, update_.attributes);
   CheckHolds(space_, layout_.owned, update_.attributes);
-  if (space_.GetExperiment().beyond_limit == BeyondLimit::kStop) CheckWithinLimit(space_, layout_.owned, update_.poses);
+  if (space_.GetExperiment().beyond_limit == BeyondLimit::kStop)
+    CheckWithinLimit(space_, layout_.owned, update_.poses, pool);
   if (space_.GetExperiment().outside_volumes == OutsideVolumes::kStop)
     CheckInVolumes(space_, index_, layout_, update_.poses);
   CheckChannels(space_, layout_.sensors, frame_.values, "readings");

@@ -67,6 +67,7 @@ private:
   const CSwarmanoidSpace& space_;
   const Assignment& assignment_;
   const EngineLayout& layout_;
+  WorkerPool* const pool_;
   const Actor actor_;
   VolumeMembers members_;
   std::uint32_t index_ = 0;

@@ -76,6 +76,7 @@ struct CSimulator::Roles
     const unsigned threads =
         std::min(options.threads == 0 ? FreeCores() : options.threads, SharedActivity::kMostThreads);
     if (threads > 1) pool = std::make_unique<WorkerPool>(threads);
+    server.UseThreads(pool.get());
     for (std::size_t e = 0; e < experiment.engines.size(); ++e)
       engines.push_back(std::make_unique<EngineWorker>(space, assignment, e, nullptr, pool.get()));
     for (std::size_t h = 0; h < assignment.hosts.size(); ++h)

@@ -19,6 +19,7 @@
 #include "common/space/bound_entities.h"
 #include "common/space/space.h"
 #include "common/space/state_checks.h"
+#include "common/threads/worker_pool.h"
 
 namespace swarmanoid
 {
@@ -449,7 +450,7 @@ void SpaceServer::HandOver(std::size_t choice, bool was_put)
 
 void SpaceServer::SetPosesWithinLimit(const EngineUpdate& update, std::span<const std::uint32_t> owned)
 {
-  const std::vector<std::size_t> beyond = FindBeyondLimit(space_, owned, update.poses);
+  const std::vector<std::size_t> beyond = FindBeyondLimit(space_, owned, update.poses, IfItShares(pool_));
   std::vector<Pose> before;
   for (const std::size_t k : beyond) before.push_back(space_.GetPose(owned[k]));
   space_.SetPoses(owned, update.poses);

@@ -29,6 +29,8 @@ struct MoveRequest
   bool present = true;  // false: the entity leaves the arena, and the pose is its waiting pose
 };
 
+class WorkerPool;
+
 class SpaceServer
 {
 public:
@@ -86,6 +88,8 @@ public:
   void SetFieldCell(std::uint32_t cell, float value);
   // States that all roles read this space, since they are in one process with the server.
   void ShareSpace() { shares_space_ = true; }
+  // The threads of the pool share the work of Advance from now on.
+  void UseThreads(WorkerPool* pool) { pool_ = pool; }
   // Does what SpaceEditor::BeginAgain describes.
   void BeginAgain(std::uint64_t first_tick, std::uint32_t variation);
   // Makes the current tick the last one.
@@ -160,6 +164,7 @@ private:
   std::vector<std::uint32_t> moved_;
   std::vector<bool> told_;  // by entity: whether its hold at the limit was reported
   EngineUpdate own_part_;   // scratch
+  WorkerPool* pool_ = nullptr;
   bool shares_space_ = false;
   bool last_ = false;
   bool failed_ = false;

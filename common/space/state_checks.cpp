@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <map>
 #include "common/space/battery_slots.h"
 #include "common/space/message_slots.h"
 #include "common/space/space.h"
+#include "common/threads/worker_pool.h"
 
 namespace swarmanoid
 {
@@ -43,6 +45,20 @@ bool AllWithin(const double* values, std::size_t count, double low, double high)
   std::uint64_t bad = 0;
   for (std::size_t k = 0; k < count; ++k) bad |= IsOutside(values[k], low, high);
   return bad == 0;
+}
+
+// Returns whether it is so for all parts of a range: are_good(first, count). The threads of a pool, if there is one,
+// share the work.
+template <class Test>
+bool IsSoForAll(WorkerPool* pool, std::size_t count, const Test& are_good)
+{
+  std::atomic<bool> is_so = true;
+  InParts(pool, count, 8,
+          [&](unsigned, std::size_t begin, std::size_t end)
+          {
+            if (!are_good(begin, end - begin)) is_so.store(false, std::memory_order_relaxed);
+          });
+  return is_so;
 }
 
 bool IsWithinLimit(const Experiment& experiment, const Vector3& position)
@@ -182,7 +198,8 @@ bool AllFinite(std::span<const double> values)
   return bad == 0;
 }
 
-void CheckPoses(const CSwarmanoidSpace& space, std::span<const std::uint32_t> entities, std::span<const double> poses)
+void CheckPoses(const CSwarmanoidSpace& space, std::span<const std::uint32_t> entities, std::span<const double> poses,
+                WorkerPool* pool)
 {
   const std::size_t count = entities.size();
   if (poses.size() != 7 * count)
@@ -190,7 +207,13 @@ void CheckPoses(const CSwarmanoidSpace& space, std::span<const std::uint32_t> en
                        count, 7 * count));
   const auto of = [&](std::size_t component) { return poses.data() + component * count; };
   // An orientation of norm 1 is finite in all parts, so only positions need the other test.
-  if (AllFinite(poses.first(3 * count)) && AllOfNormOne(of(3), of(4), of(5), of(6), count)) return;
+  const auto are_good = [&](std::size_t first, std::size_t some)
+  {
+    for (std::size_t c = 0; c < 3; ++c)
+      if (!AllFinite({of(c) + first, some})) return false;
+    return AllOfNormOne(of(3) + first, of(4) + first, of(5) + first, of(6) + first, some);
+  };
+  if (IsSoForAll(pool, count, are_good)) return;
   for (std::size_t k = 0; k < count; ++k)
   {
     std::array<double, 7> pose;
@@ -201,17 +224,21 @@ void CheckPoses(const CSwarmanoidSpace& space, std::span<const std::uint32_t> en
 }
 
 std::vector<std::size_t> FindBeyondLimit(const CSwarmanoidSpace& space, std::span<const std::uint32_t> entities,
-                                         std::span<const double> poses)
+                                         std::span<const double> poses, WorkerPool* pool)
 {
   const std::size_t count = entities.size();
   const Experiment& experiment = space.GetExperiment();
   const double limit = experiment.limit_m;
-  bool inside = true;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    inside &= AllWithin(poses.data() + axis * count, count, -limit,
-                        experiment.arena_size[static_cast<Eigen::Index>(axis)] + limit);
+  const auto are_inside = [&](std::size_t first, std::size_t some)
+  {
+    bool inside = true;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      inside &= AllWithin(poses.data() + axis * count + first, some, -limit,
+                          experiment.arena_size[static_cast<Eigen::Index>(axis)] + limit);
+    return inside;
+  };
   std::vector<std::size_t> found;
-  if (inside) return found;
+  if (IsSoForAll(pool, count, are_inside)) return found;
   for (std::size_t k = 0; k < count; ++k)
     if (space.IsPresent(entities[k]) && !IsWithinLimit(experiment, {poses[k], poses[count + k], poses[2 * count + k]}))
       found.push_back(k);
@@ -219,9 +246,9 @@ std::vector<std::size_t> FindBeyondLimit(const CSwarmanoidSpace& space, std::spa
 }
 
 void CheckWithinLimit(const CSwarmanoidSpace& space, std::span<const std::uint32_t> entities,
-                      std::span<const double> poses)
+                      std::span<const double> poses, WorkerPool* pool)
 {
-  const std::vector<std::size_t> beyond = FindBeyondLimit(space, entities, poses);
+  const std::vector<std::size_t> beyond = FindBeyondLimit(space, entities, poses, pool);
   if (beyond.empty()) return;
   const std::size_t count = entities.size();
   const std::size_t first = beyond.front();

@@ -17,6 +17,7 @@ namespace swarmanoid
 {
 
 class CSwarmanoidSpace;
+class WorkerPool;
 
 // A value must not enter the state. what() names the entity and the value. The caller adds the source and the tick.
 class StateError : public std::invalid_argument
@@ -31,15 +32,16 @@ inline constexpr double kNormTolerance = 1e-6;
 bool AllFinite(std::span<const double> values);
 
 // The checks throw StateError. Poses are structures of arrays over `entities`, as in EngineUpdate. CheckPoses requires
-// the right count of numbers, all finite, and orientations of norm 1.
-void CheckPoses(const CSwarmanoidSpace& space, std::span<const std::uint32_t> entities, std::span<const double> poses);
+// the right count of numbers, all finite, and orientations of norm 1. The threads of a pool share the work.
+void CheckPoses(const CSwarmanoidSpace& space, std::span<const std::uint32_t> entities, std::span<const double> poses,
+                WorkerPool* pool = nullptr);
 // Returns the entities that are present but farther outside the arena than Experiment::limit_m, as indices into
 // `entities`.
 std::vector<std::size_t> FindBeyondLimit(const CSwarmanoidSpace& space, std::span<const std::uint32_t> entities,
-                                         std::span<const double> poses);
+                                         std::span<const double> poses, WorkerPool* pool = nullptr);
 // Throws unless all entities are within the limit.
 void CheckWithinLimit(const CSwarmanoidSpace& space, std::span<const std::uint32_t> entities,
-                      std::span<const double> poses);
+                      std::span<const double> poses, WorkerPool* pool = nullptr);
 // Throws if an entity that `engine` moves left the volumes of all engines that can move it. `poses` are of
 // layout.owned.
 void CheckInVolumes(const CSwarmanoidSpace& space, std::uint32_t engine, const EngineLayout& layout,

@@ -38,9 +38,9 @@ void MovedSince::Follow(WorkerPool* pool)
     y_.resize(bodies_.size());
     margin_ = kFirstMargin;
   }
-  furthest_.assign(pool == nullptr ? 1 : pool->Threads(), 0);
+  furthest_.assign(pool == nullptr ? 1 : pool->Parts(), 0);
   InParts(pool, bodies_.size(), 8,
-          [&](unsigned thread, std::size_t begin, std::size_t end) { furthest_[thread] = FurthestSquare(begin, end); });
+          [&](unsigned part, std::size_t begin, std::size_t end) { furthest_[part] = FurthestSquare(begin, end); });
   const double furthest = std::sqrt(*std::max_element(furthest_.begin(), furthest_.end()));
   if (Holds() && furthest <= margin_ / 2 && std::ranges::equal(absent_, space_.Absent())) return;
 

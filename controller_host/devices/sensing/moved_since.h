@@ -48,7 +48,7 @@ private:
   double margin_ = 0;
   std::vector<double> x_, y_;  // of each body then
   std::vector<std::uint32_t> absent_;
-  std::vector<double> furthest_;  // of each thread
+  std::vector<double> furthest_;  // of each part
 };
 
 }  // namespace swarmanoid

@@ -131,9 +131,8 @@ void NeighbourGrid::Rebuild(WorkerPool* pool)
 template <class Part>
 NeighbourGrid::Facts NeighbourGrid::InAllParts(WorkerPool* pool, const Part& part)
 {
-  facts_.assign(pool == nullptr ? 1 : pool->Threads(), {});
-  InParts(pool, count_, kLanes,
-          [&](unsigned thread, std::size_t begin, std::size_t end) { facts_[thread] = part(begin, end); });
+  facts_.assign(pool == nullptr ? 1 : pool->Parts(), {});
+  InParts(pool, count_, kLanes, [&](unsigned k, std::size_t begin, std::size_t end) { facts_[k] = part(begin, end); });
   Facts all;
   for (const Facts& facts : facts_)
   {

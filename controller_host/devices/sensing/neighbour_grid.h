@@ -163,7 +163,7 @@ private:
 
   CellSort sort_;
   std::span<const std::uint32_t> sorted_from_;  // bodies_ or here_
-  std::vector<Facts> facts_;                    // of each thread
+  std::vector<Facts> facts_;                    // of each part
   // Values by place in the sorted order, with far-away padding at the end.
   std::vector<float> x_, y_, radius_, low_, high_;
   std::vector<double> origin_x_, origin_y_, origin_z_;

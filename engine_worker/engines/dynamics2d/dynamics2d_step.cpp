@@ -13,7 +13,6 @@
 //
 // Invariant: the solver gives the same motion, to rounding, to a body of a group that nothing touches.
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
 #include "common/math/elementary.h"
@@ -228,12 +227,7 @@ void Dynamics2dWorld::RunHere(double seconds, int steps, std::span<const std::ui
     for (std::size_t task = 0; task < tasks; ++task) work(task);
     return;
   }
-  std::atomic<std::size_t> next = 0;
-  pool->Run(
-      [&](unsigned)
-      {
-        for (std::size_t task = next.fetch_add(1); task < tasks; task = next.fetch_add(1)) work(task);
-      });
+  OneByOne(*pool, tasks, [&](std::size_t task, unsigned) { work(task); });
 }
 
 // Lists the contacts of all groups for the next tick.

@@ -55,14 +55,13 @@ public:
   void ForEach(std::size_t count, const Act& act) const
   {
     constexpr std::size_t kLeast = 256;  // with fewer bodies, waking threads takes longer
-    WorkerPool* const pool = count < kLeast ? nullptr : IfItShares(pool_);
-    const std::size_t threads = pool == nullptr ? 1 : pool->Threads();
-    const auto part = [&](unsigned k)
-    {
-      for (std::size_t i = count * k / threads; i < count * (k + 1) / threads; ++i) act(i);
-    };
-    if (pool == nullptr) return part(0);
-    pool->Run(part);
+    InParts(
+        IfItShares(pool_), count, 1,
+        [&](unsigned, std::size_t begin, std::size_t end)
+        {
+          for (std::size_t i = begin; i < end; ++i) act(i);
+        },
+        kLeast);
   }
 
   // Begins a tick of `seconds` and finds the groups. Bodies must not be placed or driven before it ends.

@@ -11,7 +11,6 @@
 #include "engine_worker/engines/dynamics3d/solver_groups.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <functional>
 #include <iterator>
@@ -91,16 +90,14 @@ void SolverGroups::AdvanceHere(std::uint64_t first_step)
 
 void SolverGroups::EndTick()
 {
-  const std::size_t count = models_.size();
-  WorkerPool* const pool = count < kLeastEnded ? nullptr : IfItShares(pool_);
-  const std::size_t threads = pool == nullptr ? 1 : pool->Threads();
-  const auto part = [&](unsigned k)
-  {
-    for (std::size_t assembly = count * k / threads; assembly < count * (k + 1) / threads; ++assembly)
-      free_robots_.EndTick(static_cast<std::uint32_t>(assembly));
-  };
-  if (pool == nullptr) return part(0);
-  pool->Run(part);
+  InParts(
+      IfItShares(pool_), models_.size(), 1,
+      [&](unsigned, std::size_t begin, std::size_t end)
+      {
+        for (std::size_t assembly = begin; assembly < end; ++assembly)
+          free_robots_.EndTick(static_cast<std::uint32_t>(assembly));
+      },
+      kLeastEnded);
 }
 
 // Finds the groups for the steps from `step` on.
@@ -304,15 +301,7 @@ void SolverGroups::RunStep(int step, std::uint64_t number)
   if (pool == nullptr || order_.size() < 2 || members < kLeastShared)
     for (const std::uint32_t task : order_) RunTask(tasks_[task], step, number);
   else
-  {
-    std::atomic<std::size_t> next = 0;
-    pool->Run(
-        [&](unsigned)
-        {
-          for (std::size_t k = next.fetch_add(1); k < order_.size(); k = next.fetch_add(1))
-            RunTask(tasks_[order_[k]], step, number);
-        });
-  }
+    OneByOne(*pool, order_.size(), [&](std::size_t k, unsigned) { RunTask(tasks_[order_[k]], step, number); });
   std::erase_if(order_, [&](std::uint32_t task) { return tasks_[task].is_done; });
 }
 

@@ -165,24 +165,6 @@ void BroadPhase::Sort(const PoseStore& poses, std::span<const std::uint8_t> pres
           });
 }
 
-std::size_t BroadPhase::BlocksWith(double share, std::span<const std::uint32_t> blocks) const
-{
-  const std::uint32_t* const start = sort_.Starts();
-  const auto bodies_in = [&](std::uint32_t block)
-  {
-    std::uint32_t bodies = 0;
-    ForEachRowOf(block, [&](std::uint32_t first, std::uint32_t last) { bodies += start[last + 1] - start[first]; });
-    return bodies;
-  };
-  std::uint64_t all = 0;
-  for (const std::uint32_t block : blocks) all += bodies_in(block);
-  const double before = share * static_cast<double>(all);
-  std::size_t count = 0;
-  for (std::uint64_t bodies = 0; count < blocks.size() && static_cast<double>(bodies) < before; ++count)
-    bodies += bodies_in(blocks[count]);
-  return count;
-}
-
 void BroadPhase::FindPairs(double margin, std::span<const std::uint32_t> blocks, PairList& found) const
 {
   const float reach = ReachOf(margin);

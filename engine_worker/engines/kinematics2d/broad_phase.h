@@ -160,8 +160,14 @@ private:
     const std::uint32_t left = to - from;
     return left < kLanes ? hits & ((1U << left) - 1) : hits;
   }
-  // How many of these blocks hold a share (0 to 1) of the bodies that were sorted into them.
-  std::size_t BlocksWith(double share, std::span<const std::uint32_t> blocks) const;
+  // Returns the number of bodies that Sort put into a block.
+  std::uint32_t BodiesIn(std::uint32_t block) const
+  {
+    const std::uint32_t* const start = sort_.Starts();
+    std::uint32_t bodies = 0;
+    ForEachRowOf(block, [&](std::uint32_t first, std::uint32_t last) { bodies += start[last + 1] - start[first]; });
+    return bodies;
+  }
   void SweepBlock(float reach, std::uint32_t block, std::vector<Pair>& pairs) const;
   void SweepStatics(float reach, std::uint32_t block, std::vector<Pair>& pairs) const;
 
@@ -204,11 +210,16 @@ inline void BroadPhase::ForEachRowOf(std::uint32_t block, const Act& act) const
 template <class Part>
 void BroadPhase::ShareOut(std::span<const std::uint32_t> blocks, std::size_t sharing, std::vector<Part>& parts) const
 {
+  std::uint64_t all = 0;
+  if (sharing > 1)
+    for (const std::uint32_t block : blocks) all += BodiesIn(block);
   std::size_t begin = 0;
+  std::uint64_t bodies = 0;
   for (std::size_t k = 0; k < parts.size(); ++k)
   {
-    const double share = static_cast<double>(k + 1) / static_cast<double>(sharing);
-    const std::size_t end = k + 1 >= sharing ? blocks.size() : BlocksWith(share, blocks);
+    std::size_t end = k + 1 >= sharing ? blocks.size() : begin;
+    for (const std::uint64_t before = all * (k + 1) / sharing; end < blocks.size() && bodies < before; ++end)
+      bodies += BodiesIn(blocks[end]);
     parts[k].blocks = blocks.subspan(begin, end - begin);
     begin = end;
   }

@@ -212,14 +212,7 @@ void ContactSolver::Solve(std::span<const std::vector<ContactBlock>> colours, st
       if (pool == nullptr || blocks.size() < 2 || contacts < kLeastShared)
         for (const ContactBlock& block : blocks) visit(block, 0);
       else
-      {
-        std::atomic<std::size_t> next = 0;
-        pool->Run(
-            [&](unsigned thread)
-            {
-              for (std::size_t n = next++; n < blocks.size(); n = next++) visit(blocks[n], thread);
-            });
-      }
+        OneByOne(*pool, blocks.size(), [&](std::size_t n, unsigned thread) { visit(blocks[n], thread); });
       if (is_shared)
         border->PutShared(static_cast<Stamp>(begin));
       else if (border != nullptr)

@@ -237,7 +237,7 @@ void FindContacts(PlaneState& plane)
 {
   Contacts& contacts = plane.contacts;
   const bool alone = plane.bodies.count < kLeastBodies || plane.Pool() == nullptr;
-  contacts.broad.ShareOut(contacts.blocks, alone ? 1 : plane.threads, contacts.parts);
+  contacts.broad.ShareOut(contacts.blocks, alone ? 1 : plane.PartCount(), contacts.parts);
   plane.ForEachPart(
       [&](unsigned k)
       {

@@ -328,7 +328,7 @@ bool AddLimits(PlaneState& plane, double seconds, bool is_first)
   const auto add = [&](unsigned k)
   { AddLimitsOf(plane, plane.contacts.parts[k].pairs.pairs, is_first, seconds, plane.limits.parts[k], more); };
   plane.ForEachPart(add);
-  add(plane.threads);
+  add(plane.PartCount());
   return more;
 }
 

@@ -89,9 +89,9 @@ void PlaneState::Start(const PlaneGrid& grid, unsigned thread_count, WorkerPool*
   broad.SetStatics(boxes);
   contacts.blocks.assign(broad.Blocks().begin(), broad.Blocks().end());
   contacts.of_blocks.resize(contacts.blocks.size());
-  contacts.parts.resize(threads + 1);
-  contacts.verlet_list.Configure(threads);
-  limits.parts.resize(threads + 1);
+  contacts.parts.resize(PartCount() + 1);
+  contacts.verlet_list.Configure(PartCount());
+  limits.parts.resize(PartCount() + 1);
   limits.limiter.Configure(bodies.count + 1);
   BodiesChanged();
   groups.grips.reserve(bodies.count);

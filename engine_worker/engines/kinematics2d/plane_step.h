@@ -32,7 +32,7 @@ struct WorldStatistics
 // Where outlines are near each other, and the contacts of a substep.
 struct Contacts
 {
-  // The finds of one thread in some of the blocks.
+  // The finds in some of the blocks.
   struct Part
   {
     std::span<const std::uint32_t> blocks;  // a piece of Contacts::blocks
@@ -47,7 +47,7 @@ struct Contacts
   bool is_listed = false;               // the Verlet list has the pairs of this substep
   std::vector<std::uint32_t> blocks;    // the blocks that this process computes, ascending
   std::vector<ContactBlock> of_blocks;  // one for each of them
-  std::vector<Part> parts;              // one for each thread, then one for bodies too large for the cells
+  std::vector<Part> parts;              // PlaneState::PartCount, then one for bodies too large for the cells
   std::vector<ContactBlock> of_large;   // one for each part of the pairs of large bodies
   ContactList shared;                   // contacts of large bodies and of groups: they may reach into many blocks
   // The blocks are sorted by colour; the shared contacts are the last colour.
@@ -99,16 +99,18 @@ struct PlaneState
   void BodiesChanged();
 
   WorkerPool* Pool() const { return IfItShares(pool); }
+  // Returns the number of parts that threads take one after the other.
+  unsigned PartCount() const { return pool == nullptr ? 1 : pool->Parts(); }
   // Each body leads itself and can be pushed.
   bool EachIsFree() const { return groups.grips.empty() && bodies.followers.empty(); }
   // Returns the angle that a leader wants to turn by.
   double TurnOf(std::uint32_t leader, double seconds) const { return groups.Twists(bodies).turn[leader] * seconds; }
-  // Calls act(k) for each of the Contacts::parts that has blocks, each in a thread of its own.
+  // Calls act(k) for each of the Contacts::parts that has blocks, in all threads.
   template <class Act>
   void ForEachPart(const Act& act)
   {
     if (Pool() == nullptr || contacts.parts[0].blocks.size() == contacts.blocks.size()) return act(0U);
-    pool->Run([&](unsigned k) { act(k); });
+    pool->Run(PartCount(), act);
   }
 };
 

@@ -68,8 +68,8 @@ bool VerletList::Holds(const PoseStore& poses, std::span<const std::uint8_t> pre
   };
   for (Part& part : parts_) part.furthest = 0;
   InParts(pool, x_.size(), kPadding,
-          [&](unsigned thread, std::size_t begin, std::size_t end)
-          { parts_[thread].furthest = furthest_square(begin, end); });
+          [&](unsigned part, std::size_t begin, std::size_t end)
+          { parts_[part].furthest = furthest_square(begin, end); });
   return std::ranges::max(parts_, {}, &Part::furthest).furthest <= slack * slack / 4;
 }
 

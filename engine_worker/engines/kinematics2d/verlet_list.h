@@ -18,8 +18,8 @@ namespace swarmanoid::kinematics2d
 class VerletList
 {
 public:
-  // Sets the number of threads of the pools that Update will get.
-  void Configure(unsigned threads) { parts_.resize(threads); }
+  // Sets the number of parts (WorkerPool::Parts, or 1) of the pools that Update will get.
+  void Configure(unsigned parts) { parts_.resize(parts); }
   // Brings the list up to date, by a search of its own in these blocks if one is needed. Returns false if a list does
   // not pay, or if some bodies are large: then the caller must search for the pairs.
   bool Update(BroadPhase& broad, std::span<const std::uint32_t> blocks, const PoseStore& poses,
@@ -57,11 +57,11 @@ private:
               std::span<const std::uint8_t> present, WorkerPool* pool);
   void Choose(const BroadPhase& broad, const PoseStore& poses, double margin, WorkerPool* pool);
 
-  // Calls act(part) with all of them, each in a thread of its own if there is a pool.
+  // Calls act(part) with all of them, in the threads of the pool if there is one.
   template <class Act>
   void ForEachPart(WorkerPool* pool, const Act& act)
   {
-    if (pool != nullptr) return pool->Run([&](unsigned k) { act(parts_[k]); });
+    if (pool != nullptr) return pool->Run(pool->Parts(), [&](unsigned k) { act(parts_[k]); });
     for (Part& part : parts_) act(part);
   }
 

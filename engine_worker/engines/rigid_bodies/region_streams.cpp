@@ -1,7 +1,6 @@
 #include "engine_worker/engines/rigid_bodies/region_streams.h"
 
 #include <algorithm>
-#include <atomic>
 #include <exception>
 #include <stdexcept>
 #include <utility>
@@ -113,23 +112,22 @@ void StreamedRegion::Answer(ByteWriter& answer)
 
 void ShareWork(WorkerPool* pool, std::size_t count, const std::function<void(std::size_t)>& work)
 {
-  std::atomic<std::size_t> next = 0;
   std::vector<std::exception_ptr> errors(count);
-  const auto part = [&](unsigned)
+  const auto item = [&](std::size_t k, unsigned)
   {
-    for (std::size_t k = next.fetch_add(1); k < count; k = next.fetch_add(1)) try
-      {
-        work(k);
-      }
-      catch (...)
-      {
-        errors[k] = std::current_exception();
-      }
+    try
+    {
+      work(k);
+    }
+    catch (...)
+    {
+      errors[k] = std::current_exception();
+    }
   };
-  if (pool == nullptr || count < 2)
-    part(0);
+  if (pool != nullptr && count > 1)
+    OneByOne(*pool, count, item);
   else
-    pool->Run(part);
+    for (std::size_t k = 0; k < count; ++k) item(k, 0);
   for (const std::exception_ptr& error : errors)
     if (error) std::rethrow_exception(error);
 }

@@ -92,7 +92,7 @@ TEST(VerletList, GivesThePairsOfASearchInItsOrder)
       Swarm swarm(1500, side);
       WorkerPool pool(threads);
       VerletList list;
-      list.Configure(threads);
+      list.Configure(pool.Parts());
       for (int step = 0; step < 60 && !testing::Test::HasFailure(); ++step)
       {
         // Alone, or with threads, as the process chooses.
