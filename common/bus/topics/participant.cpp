@@ -61,6 +61,7 @@ bool KeepLog()
 // The multicast group of DDS discovery and its ports (RTPS 2.2, 9.6.1).
 constexpr const char* kMulticastGroup = "239.255.0.1";
 constexpr unsigned kFirstPort = 7400, kPortsOfADomain = 250;
+constexpr std::uint32_t kMostProcesses = 2048;  // of one domain on a machine
 constexpr unsigned kPeerProcesses = 100;  // number of participants that are searched on each machine named as a peer
 
 std::atomic<bool> broken = false;
@@ -177,6 +178,8 @@ Bus::Impl::Impl(const BusOptions& options, const std::string& name, const std::s
         std::make_shared<SignedTransportDescriptor>(udp, std::make_shared<DatagramSignatures>(key_ring), datagrams));
 
   rtps::BuiltinAttributes& builtin = qos.wire_protocol().builtin;
+  // Each process on a machine takes the next free port. Fast DDS goes on without one that it does not find, deaf.
+  builtin.mutation_tries = kMostProcesses;
   builtin.discovery_config.initial_announcements.count = 20;
   builtin.discovery_config.initial_announcements.period = Seconds(0.05);
   builtin.discovery_config.leaseDuration = Seconds(options.lease_s);

@@ -12,6 +12,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <list>
 #include <sstream>
 #include <thread>
 
@@ -219,6 +220,44 @@ TEST(Bus, FindsOthersThroughADiscoveryServer)
   BusOptions options = Options();
   options.discovery_server = fmt::format("127.0.0.1:{}", FreeUdpPort());
   PingPong(options, false);
+}
+
+// Holds a port of UDP on this machine, if it is free.
+class HeldPort
+{
+public:
+  explicit HeldPort(int port) : file_(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0))
+  {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    address.sin_port = htons(static_cast<std::uint16_t>(port));
+    // A process of another test may have it.
+    [[maybe_unused]] const int result = bind(file_, reinterpret_cast<const sockaddr*>(&address), sizeof address);
+  }
+  ~HeldPort() { close(file_); }
+  HeldPort(const HeldPort&) = delete;
+  HeldPort& operator=(const HeldPort&) = delete;
+
+private:
+  int file_;
+};
+
+// The ports of the first processes of a domain are taken. Those of the next domain are not touched.
+TEST(Bus, HearsOthersBesideAHundredProcesses)
+{
+  const FreeDomain domain;
+  BusOptions options = Options();
+  options.domain = domain.Id();
+  std::list<HeldPort> held;
+  for (int port = 7410; port < 7645; ++port) held.emplace_back(port + 250 * domain.Id());
+  const pid_t child = StartChild(fmt::format("victim {} lo - - 0", options.domain));
+  Bus bus(options, "watcher");
+  std::atomic<bool> heard = false;
+  Subscription<StatusMessage> in(bus, "x", [&](const StatusMessage&) { heard = true; });
+  EXPECT_TRUE(Eventually([&] { return heard.load(); }));
+  kill(child, SIGKILL);
+  waitpid(child, nullptr, 0);
 }
 
 TEST(Bus, DoesNotHearOtherPartitions)
