@@ -2,7 +2,7 @@
 // numbers, robots that come late, any number of threads and hosts, and from a checkpoint on.
 #include <gmock/gmock.h>
 
-#include <filesystem>
+#include <fstream>
 
 #include "common/control_interface/ci_batch_controller.h"
 #include "common/control_interface/ci_positioning_sensor.h"
@@ -12,6 +12,7 @@
 #include "simulation/register_all.h"
 #include "simulation/simulator.h"
 #include "space_server/experiment_functions.h"
+#include "test_folders.h"
 #include "tests/world/experiment_text.h"
 
 namespace swarmanoid
@@ -67,6 +68,27 @@ public:
 REGISTER_CONTROLLER(ByBatch, "batch_runs_by_batch")
 REGISTER_CONTROLLER(ByLoop, "batch_runs_by_loop")
 
+class CAvoider : public CCI_BatchController
+{
+public:
+  int Init(const TConfigurationTree) override { return RETURN_OK; }
+  void ControlSteps(CCI_Batch& robots) override;
+};
+REGISTER_CONTROLLER(CAvoider, "batch_runs_avoider")
+
+// The listing of docs/own_controller.md:
+void CAvoider::ControlSteps(CCI_Batch& robots)
+{
+  const CCI_Readings proximity = robots.Readings("footbot_proximity");
+  const CCI_Commands wheels = robots.Commands("footbot_wheels");
+  for (std::size_t k = 0; k < robots.Size(); ++k)
+  {
+    wheels[k][0] = 5;  // rad/s
+    wheels[k][1] = proximity[k][0] > 0.1 ? -5 : 5;
+  }
+}
+// Its end.
+
 struct Way
 {
   std::string tag = "batch_runs_by_batch";
@@ -110,6 +132,21 @@ std::uint64_t HashOf(const Way& way)
     if (tick == 20 || tick == 40) AddLate(simulator.GetEditor());
   } while (simulator.Step());
   return simulator.Finish().hash;
+}
+
+std::string TextOf(const std::string& file)
+{
+  std::ifstream stream(SWARMANOID_SOURCE_FOLDER + file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+TEST(BatchRuns, TheListingOfTheDocumentationCompilesAndDrives)
+{
+  std::string own = TextOf("/tests/unit/device_runs/batch_runs_test.cpp");
+  own = own.substr(own.find("void CAvoider::"));
+  own = own.substr(0, own.find("// Its end."));
+  EXPECT_THAT(TextOf("/docs/own_controller.md"), testing::HasSubstr("```cpp\n" + own + "```\n"));
+  EXPECT_NE(HashOf({.tag = "batch_runs_avoider"}), HashOf({.tag = "batch_runs_by_loop"}));
 }
 
 TEST(BatchRuns, HaveTheHashOfTheLoop)
