@@ -2,11 +2,13 @@
 // numbers of its own step.
 #include <gmock/gmock.h>
 
+#include <limits>
 #include <mutex>
 #include <set>
 
 #include "common/activity/current_activity.h"
 #include "common/control_interface/ci_batch_controller.h"
+#include "common/space/space.h"
 #include "common/threads/worker_pool.h"
 #include "controller_host/controller_host.h"
 #include "tests/world/message_of.h"
