@@ -59,7 +59,7 @@ private:
 };
 
 // The robots whose control steps are made together, in the order of the space. All have the same controller class,
-// parameters and devices. Reading a sensor or setting an actuator makes no step of other robots differ.
+// parameters and devices.
 class CCI_Batch
 {
 public:
