@@ -17,12 +17,12 @@
 #include <algorithm>
 #include <ctime>
 #include <exception>
+#include <map>
 #include <sstream>
 
 #include "common/activity/shared_activity.h"
 #include "common/checkpoint/host_state.h"
 #include "common/configuration/shown_text.h"
-#include "common/control_interface/ci_step_group.h"
 #include "common/control_interface/init_controller.h"
 #include "common/experiment/actors.h"
 #include "common/logging/log.h"
@@ -221,21 +221,28 @@ ControllerHost::ControllerHost(const CSwarmanoidSpace& space, const Assignment& 
 void ControllerHost::ListSteps()
 {
   for (auto* list : {&parallel_, &in_turn_, &guarded_}) list->clear();
-  groups_.clear();
+  batches_of_robots_.clear();
   Clear(commands_.faults);
+  const Experiment& experiment = space_.GetExperiment();
+  std::map<const ControllerConfiguration*, std::vector<std::uint32_t>> together;
   for (std::uint32_t k = 0; k < robots_.size(); ++k)
   {
     if (device_faults_ != nullptr && device_faults_->SwitchedOff(k) != nullptr) continue;
     if (robots_[k].guard != nullptr)
       guarded_.push_back(k);
-    else if (auto* grouped = dynamic_cast<CCI_InStepGroup*>(robots_[k].controller.get()))
-    {
-      auto found = std::ranges::find(groups_, &grouped->StepGroup(), &StepGroup::group);
-      if (found == groups_.end()) found = groups_.insert(found, StepGroup{&grouped->StepGroup()});
-      found->robots.push_back(k);
-    }
+    else if (dynamic_cast<CCI_BatchController*>(robots_[k].controller.get()) != nullptr)
+      together[experiment.FindController(experiment.entities[robots_[k].entity].controller)].push_back(k);
     else
       (robots_[k].controller->StepsInParallel() ? parallel_ : in_turn_).push_back(k);
+  }
+  for (const auto& [configuration, robots] : together)
+  {
+    const bool may_share = batches_->pool != nullptr && robots_[robots.front()].controller->StepsInParallel();
+    const std::size_t parts = may_share ? std::min<std::size_t>(robots.size(), batches_->pool->Threads()) : 1;
+    std::vector<BatchOfRobots>& batches = batches_of_robots_.emplace_back(parts);
+    for (std::size_t part = 0; part < parts; ++part)
+      batches[part].robots.assign(robots.begin() + static_cast<std::ptrdiff_t>(robots.size() * part / parts),
+                                  robots.begin() + static_cast<std::ptrdiff_t>(robots.size() * (part + 1) / parts));
   }
 }
 
@@ -683,7 +690,7 @@ void ControllerHost::RunControllers(std::uint64_t tick)
   else
     StepInTurn(parallel_, tick);
   StepInTurn(in_turn_, tick);
-  if (!groups_.empty()) StepTogether(tick);
+  if (!batches_of_robots_.empty()) StepBatches(tick);
   if (!guarded_.empty()) StepGuarded(tick);
 }
 
@@ -723,13 +730,15 @@ template <class ActivityOfThread>
 void ControllerHost::ControlSteps(std::span<const std::uint32_t> robots, std::uint64_t tick, ActivityOfThread& activity)
 {
   const Actor* running = nullptr;
+  const std::uint64_t stream_tick = space_.StreamTick();
+  const bool all_are_present = space_.Absent().empty();
   try
   {
     for (const std::uint32_t k : robots)
     {
       Robot& robot = robots_[k];
-      if (!space_.IsPresent(robot.entity)) continue;
-      robot.interface->BeginControlStep(tick, space_.StreamTick());
+      if (!all_are_present && !space_.IsPresent(robot.entity)) continue;
+      robot.interface->BeginControlStep(tick, stream_tick);
       running = &robot.actor;
       activity.Next(*running);
       robot.controller->ControlStep();
@@ -741,22 +750,68 @@ void ControllerHost::ControlSteps(std::span<const std::uint32_t> robots, std::ui
   }
 }
 
-void ControllerHost::StepTogether(std::uint64_t tick)
+void ControllerHost::StepBatches(std::uint64_t tick)
 {
-  for (StepGroup& group : groups_)
+  for (std::vector<BatchOfRobots>& parts : batches_of_robots_)
   {
-    const Actor* first = nullptr;
-    group.steps.clear();
-    for (const std::uint32_t k : group.robots)
+    if (parts.size() == 1 || IfItShares(batches_->pool) == nullptr)
     {
-      Robot& robot = robots_[k];
-      if (!space_.IsPresent(robot.entity)) continue;
-      robot.interface->BeginControlStep(tick, space_.StreamTick());
-      if (first == nullptr) first = &robot.actor;
-      group.steps.push_back(robot.controller.get());
+      Activity activity(robots_[parts.front().robots.front()].actor, ActivityStep::kControlStep, tick);
+      for (BatchOfRobots& part : parts) StepBatch(part, tick, activity);
+      continue;
     }
-    if (first != nullptr)
-      RunCodeOf(*first, ActivityStep::kControlStep, tick, [&] { group.group->ControlSteps(group.steps); });
+    const SharedActivity activity(ActivityStep::kControlStep, tick);
+    batches_->stopped.assign(parts.size(), nullptr);
+    batches_->pool->Run(
+        [&](unsigned k)
+        {
+          if (k >= parts.size()) return;
+          SharedActivity::Thread of_thread(k);
+          try
+          {
+            StepBatch(parts[k], tick, of_thread);
+          }
+          catch (...)
+          {
+            batches_->stopped[k] = std::current_exception();
+          }
+        });
+    // The failure of the first robot is reported, whichever thread was first.
+    for (const std::exception_ptr& stopped : batches_->stopped)
+      if (stopped != nullptr) std::rethrow_exception(stopped);
+  }
+}
+
+template <class ActivityOfThread>
+void ControllerHost::StepBatch(BatchOfRobots& robots, std::uint64_t tick, ActivityOfThread& activity)
+{
+  CCI_Batch& batch = robots.batch;
+  const std::uint64_t stream_tick = space_.StreamTick();
+  const bool all_are_present = space_.Absent().empty();
+  batch.Clear();
+  for (const std::uint32_t k : robots.robots)
+  {
+    const Robot& robot = robots_[k];
+    if (!all_are_present && !space_.IsPresent(robot.entity)) continue;
+    robot.interface->BeginControlStep(tick, stream_tick);
+    batch.Add(*robot.controller);
+  }
+  batch.Begin();
+  if (batch.Size() == 0) return;
+  const auto actor_of = [&](std::size_t place) -> const Actor&
+  {
+    const auto is_it = [&](std::uint32_t k) { return robots_[k].interface.get() == &batch.Robot(place); };
+    return robots_[*std::ranges::find_if(robots.robots, is_it)].actor;
+  };
+  activity.Next(actor_of(0));
+  try
+  {
+    batch.Of<CCI_BatchController>(0).ControlSteps(batch);
+    batch.SetCommands();
+  }
+  catch (...)
+  {
+    RethrowFor(actor_of(batch.FailedRobot()), ActivityStep::kControlStep, tick);
   }
 }
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "common/activity/failure_report.h"
-#include "common/control_interface/ci_controller.h"
+#include "common/control_interface/ci_batch_controller.h"
 #include "common/limits/step_timeout.h"
 #include "common/messages/assignment.h"
 #include "common/threads/worker_pool.h"
@@ -20,7 +20,6 @@ namespace swarmanoid
 {
 
 class BatteryReports;
-class CCI_StepGroup;
 class DeviceFaults;
 
 // A controller failed: what() names the robot, the controller, the tick and the reason.
@@ -102,6 +101,12 @@ private:
 
     bool IsStopped() const { return guard != nullptr && guard->stopped; }
   };
+  // Robots whose control steps are made by one call.
+  struct BatchOfRobots
+  {
+    std::vector<std::uint32_t> robots;  // positions in robots_
+    CCI_Batch batch{};                  // those of the last tick
+  };
   // The commands for robots that are stopped.
   struct Silence
   {
@@ -124,7 +129,10 @@ private:
   void ControlSteps(std::span<const std::uint32_t> robots, std::uint64_t tick, ActivityOfThread& activity);
   void StepInTurn(std::span<const std::uint32_t> robots, std::uint64_t tick);
   void StepInParallel(std::uint64_t tick);
-  void StepTogether(std::uint64_t tick);
+  // Runs the steps of controllers that derive from CCI_BatchController, in threads if they allow it.
+  void StepBatches(std::uint64_t tick);
+  template <class ActivityOfThread>
+  void StepBatch(BatchOfRobots& robots, std::uint64_t tick, ActivityOfThread& activity);
   void StepGuarded(std::uint64_t tick);
   void TryStep(Robot& robot, std::uint64_t tick);
   // Returns false if it took more than its time budget.
@@ -161,13 +169,8 @@ private:
   const CSwarmanoidSpace& space_;
   const HostLayout& layout_;
   std::vector<Robot> robots_;
-  struct StepGroup
-  {
-    CCI_StepGroup* group;
-    std::vector<std::uint32_t> robots{};   // positions in robots_
-    std::vector<CCI_Controller*> steps{};  // of one tick
-  };
-  std::vector<StepGroup> groups_;
+  // The robots of each entry of <controllers> whose steps are made by one call, divided among threads.
+  std::vector<std::vector<BatchOfRobots>> batches_of_robots_;
   // The numbers are positions in robots_: controllers that may step at the same time, the others, and those with a
   // guard.
   std::vector<std::uint32_t> parallel_;

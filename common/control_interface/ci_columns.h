@@ -81,6 +81,10 @@ struct CCI_ColumnGroup
   std::function<void(const CCI_Device&, std::vector<double>&)> read{};  // for readings: appends the numbers
   // Gives the column of one repetition its own name and unit, if the device knows them.
   std::function<void(const CCI_Device&, std::size_t, CCI_Column&)> adapt{};
+  // For readings that devices keep as spans of doubles: find_rows(devices, width, rows) writes where the numbers of
+  // each device are. It returns the number of devices, or the position of the first one that has another count than
+  // `width`.
+  std::function<std::size_t(std::span<const CCI_Device* const>, std::size_t, const double**)> find_rows{};
 
   std::size_t CountOf(const CCI_Device& device) const { return count == 0 ? count_of(device) : count; }
   bool IsFor(CCI_Column::For audience) const { return columns.front().IsFor(audience); }
@@ -98,9 +102,9 @@ struct CCI_Columns
   std::vector<CCI_ColumnGroup> row;
   std::function<void(const CCI_Device&, CCI_Column::For, std::vector<double>&)> read_rows;
   std::function<void(const CCI_Device&, std::vector<std::string>&)> read_row_ids;
-  // The columns that an actuator is set to, all at once.
+  // The columns that an actuator is set to, all at once. set(devices, values) has a row of values for each device.
   std::vector<CCI_ColumnGroup> settings;
-  std::function<void(CCI_Device&, std::span<const double>)> set;
+  std::function<void(std::span<CCI_Device* const>, std::span<const double>)> set;
 };
 
 // The count of numbers in a reading of a type; 0 means that its size gives the count.
@@ -110,6 +114,11 @@ template <class Number, std::size_t kSize>
 inline constexpr std::size_t kNumbersIn<std::array<Number, kSize>> = kSize;
 template <class Number, std::size_t kSize>
 inline constexpr std::size_t kNumbersIn<std::span<Number, kSize>> = kSize == std::dynamic_extent ? 0 : kSize;
+// Whether a reading is a span of doubles.
+template <class Value>
+inline constexpr bool kIsSpan = false;
+template <std::size_t kSize>
+inline constexpr bool kIsSpan<std::span<const double, kSize>> = true;
 
 // It describes a column of the items of a list, and how it is read: by a member or a function of the item, or by a
 // function of the device and the item. A range has the same size for all items.
@@ -140,6 +149,7 @@ public:
       if (count != 0) values.resize(end, 0);
     };
     readings.push_back({{std::move(column)}, count, SizeOf(get), read});
+    if (count == kNumbersIn<ResultOf<Get>>) readings.back().find_rows = FindRows(get);
     return *this;
   }
   // Adds a reading that is a range with a number for each of these columns.
@@ -148,7 +158,7 @@ public:
   {
     const auto read = [get](const CCI_Device& device, std::vector<double>& values)
     { Append(values, std::invoke(get, This(device))); };
-    readings.push_back({std::move(columns), 1, {}, read});
+    readings.push_back({std::move(columns), 1, {}, read, {}, FindRows(get)});
     return *this;
   }
   // Adds columns that are repeated as often as a range has numbers for them. adapt(device, repetition, column) gives
@@ -161,7 +171,7 @@ public:
     { return std::size(std::invoke(get, This(device))) / width; };
     const auto read = [get](const CCI_Device& device, std::vector<double>& values)
     { Append(values, std::invoke(get, This(device))); };
-    readings.push_back({std::move(columns), 0, count, read, Adapted(adapt)});
+    readings.push_back({std::move(columns), 0, count, read, Adapted(adapt), FindRows(get)});
     return *this;
   }
   // Gives the columns of the last setting their names and units, as AddNamed does.
@@ -231,7 +241,15 @@ public:
       else
         group = {{column}, 0, [count](const CCI_Device& device) { return std::invoke(count, This(device)); }};
     }
-    set = [by](CCI_Device& device, std::span<const double> values) { by(static_cast<Device&>(device), values); };
+    set = [by](std::span<CCI_Device* const> devices, std::span<const double> values)
+    {
+      const std::size_t width = values.size() / std::max<std::size_t>(devices.size(), 1);
+      for (CCI_Device* const device : devices)
+      {
+        by(static_cast<Device&>(*device), values.first(width));
+        values = values.subspan(width);
+      }
+    };
     return *this;
   }
 
@@ -255,6 +273,24 @@ private:
       values.push_back(static_cast<double>(value));
     else
       values.insert(values.end(), std::begin(value), std::end(value));
+  }
+  // Returns the function for find_rows. It is empty unless the readings are a span of doubles from a member function.
+  template <class Get>
+  static std::function<std::size_t(std::span<const CCI_Device* const>, std::size_t, const double**)> FindRows(Get get)
+  {
+    if constexpr (std::is_member_function_pointer_v<Get> && kIsSpan<ResultOf<Get>>)
+      return [get](std::span<const CCI_Device* const> devices, std::size_t width, const double** rows) -> std::size_t
+      {
+        for (std::size_t k = 0; k < devices.size(); ++k)
+        {
+          const std::span<const double> row = std::invoke(get, This(*devices[k]));
+          if (row.size() != width) return k;
+          rows[k] = row.data();
+        }
+        return devices.size();
+      };
+    else
+      return {};
   }
   // Returns a function that gives the size of a range, or an empty function if the type determines the size.
   template <class Get>

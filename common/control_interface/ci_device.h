@@ -67,7 +67,11 @@ public:
   std::vector<CCI_Column> Columns() const;
   // Sets all columns at once. `values` must have a finite number for each column. Values outside a range are clamped to
   // it. Switches are on above 0.5.
-  void SetColumns(std::span<const double> values) { Declared().set(*this, values); }
+  void SetColumns(std::span<const double> values)
+  {
+    CCI_Device* const self = this;
+    Declared().set({&self, 1}, values);
+  }
 };
 
 // The bases of an interface that declares columns by Interface::Declare.

@@ -1,12 +1,10 @@
 // Programs in Python steer many robots faster by arrays than by a call for each robot. So the controllers of one
 // <external_controller> share an array for each device, with a row for each robot: Read() fills the arrays of sensors
-// before the program runs, and ControlStep() copies the robot's row to its actuators. A controller joins its group in
-// Init, in the order of the space, and its row never changes. A column that is not finite is refused before the
-// actuator sees it.
+// before the program runs, and ControlSteps() copies the robots' rows to their actuators. A controller joins its group
+// in Init, in the order of the space, and its row never changes.
 #include "python/module/external_robots.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 namespace swarmanoid::python
@@ -20,9 +18,9 @@ ExternalRobots*& Current()
   return current;
 }
 
-// Returns the array of a device of a group, with room for one robot more.
-DeviceArray& WithRow(std::map<std::string, DeviceArray>& arrays, const std::string& type,
-                     const std::vector<std::string>& columns)
+// Makes room for one robot more in the array of a device of a group.
+void WithRow(std::map<std::string, DeviceArray>& arrays, const std::string& type,
+             const std::vector<std::string>& columns)
 {
   DeviceArray& array = arrays[type];
   if (array.columns.empty()) array.columns = columns;
@@ -31,7 +29,6 @@ DeviceArray& WithRow(std::map<std::string, DeviceArray>& arrays, const std::stri
                                 "' has " + std::to_string(array.columns.size()) + " values for some and " +
                                 std::to_string(columns.size()) + " for others; give each kind a controller of its own");
   array.values.resize(array.values.size() + columns.size(), 0);
-  return array;
 }
 
 }  // namespace
@@ -67,13 +64,13 @@ std::vector<std::string> ExternalGroup::RowIds(std::size_t robot, const std::str
 
 void ExternalGroup::Read()
 {
-  std::vector<double> values;
-  for (ExternalController* robot : robots_)
-    for (const ExternalController::Sensor& sensor : robot->sensors_)
-    {
-      sensor.device.ReadColumns(values);
-      std::copy(values.begin(), values.end(), sensor.array->values.data() + robot->place_ * values.size());
-    }
+  batch_.Begin();
+  for (auto& [type, array] : sensors_)
+  {
+    const CCI_Readings readings = batch_.Readings(type);
+    double* next = array.values.data();
+    for (std::size_t k = 0; k < batch_.Size(); ++k) next = std::ranges::copy(readings[k], next).out;
+  }
 }
 
 ExternalController::ExternalController()
@@ -90,10 +87,11 @@ int ExternalController::Init(const TConfigurationTree)
   group_ = &robots_.GroupOf(robot.GetId());
   place_ = group_->robots_.size();
   group_->robots_.push_back(this);
+  group_->batch_.Add(*this);
   for (const auto& [type, sensor] : SensorsOf(robot))
   {
     const SensorReader reader(type, *sensor);
-    if (!reader.Columns().empty()) sensors_.push_back({reader, &WithRow(group_->sensors_, type, reader.Columns())});
+    if (!reader.Columns().empty()) WithRow(group_->sensors_, type, reader.Columns());
     if (!reader.Rows().empty())
     {
       group_->row_sensors_[type] = reader.Rows();
@@ -102,21 +100,18 @@ int ExternalController::Init(const TConfigurationTree)
   }
   for (const auto& [type, actuator] : ActuatorsOf(robot))
     if (const std::vector<std::string> columns = NamesOf(actuator->Columns()); !columns.empty())
-      actuators_.push_back({type, actuator, &WithRow(group_->actuators_, type, columns)});
+      WithRow(group_->actuators_, type, columns);
   return RETURN_OK;
 }
 
-void ExternalController::ControlStep()
+void ExternalController::ControlSteps(CCI_Batch& robots)
 {
-  for (const Actuator& actuator : actuators_)
+  for (const auto& [type, array] : group_->actuators_)
   {
-    const std::size_t width = actuator.array->columns.size();
-    const double* const values = actuator.array->values.data() + place_ * width;
-    for (std::size_t i = 0; i < width; ++i)
-      if (!std::isfinite(values[i]))
-        throw std::invalid_argument("column " + std::to_string(i) + " ('" + actuator.array->columns[i] +
-                                    "') of the actuator '" + actuator.type + "' is not a finite number");
-    actuator.device->SetColumns({values, width});
+    const CCI_Commands commands = robots.Commands(type);
+    const std::size_t width = commands.Columns();
+    for (std::size_t k = 0; k < robots.Size(); ++k)
+      std::copy_n(array.values.data() + robots.Of<ExternalController>(k).place_ * width, width, commands[k].data());
   }
 }
 

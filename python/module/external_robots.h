@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "common/control_interface/ci_controller.h"
+#include "common/control_interface/ci_batch_controller.h"
 #include "common/experiment/experiment.h"
 #include "python/module/device_values.h"
 
@@ -49,6 +49,7 @@ private:
   friend class ExternalController;
 
   std::vector<ExternalController*> robots_;
+  CCI_Batch batch_;  // all of them, for Read
   std::map<std::string, DeviceArray> sensors_, actuators_;
   std::map<std::string, std::vector<std::string>> row_sensors_;
 };
@@ -81,32 +82,19 @@ private:
   std::map<std::string, ExternalGroup> groups_;
 };
 
-class ExternalController : public CCI_Controller
+class ExternalController : public CCI_BatchController
 {
 public:
   ExternalController();
   int Init(const TConfigurationTree t_tree) override;
-  void ControlStep() override;
+  void ControlSteps(CCI_Batch& robots) override;
 
 private:
   friend class ExternalGroup;
-  struct Sensor
-  {
-    SensorReader device;
-    DeviceArray* array;
-  };
-  struct Actuator
-  {
-    std::string type;
-    CCI_Actuator* device;
-    DeviceArray* array;
-  };
 
   ExternalRobots& robots_;
   ExternalGroup* group_ = nullptr;
   std::size_t place_ = 0;  // in the group
-  std::vector<Sensor> sensors_;
-  std::vector<Actuator> actuators_;
   std::map<std::string, SensorReader> rows_;
 };
 

@@ -12,7 +12,7 @@
 #include <ostream>
 #include <stdexcept>
 
-#include "common/control_interface/ci_step_group.h"
+#include "common/control_interface/ci_batch_controller.h"
 #include "common/math/reproducible_math.h"
 #include "controller_host/scripts/declaration/script_declaration.h"
 #include "controller_host/scripts/python/python_scripts.h"
@@ -61,6 +61,7 @@ py::object& Runtime()
       .def("tick", &ScriptRobots::Tick)
       .def("time", &ScriptRobots::Time)
       .def("tick_seconds", &ScriptRobots::TickSeconds)
+      .def("begin", &ScriptRobots::Begin)
       .def("read", &ScriptRobots::Read)
       .def("rows", &ScriptRobots::Rows)
       .def("row_ids", &ScriptRobots::RowIds)
@@ -150,7 +151,7 @@ py::dict ValuesOf(const std::vector<ParameterSpec>& specs, const TConfigurationT
   return values;
 }
 
-class ScriptGroup : public CCI_StepGroup
+class ScriptGroup
 {
 public:
   explicit ScriptGroup(const TConfigurationTree& parameters)
@@ -160,13 +161,15 @@ public:
     const std::vector<ParameterSpec> specs = ReadDeclaration(file_, path);
     WithPython(file_, [&] { script_ = Runtime().attr("Script")(path, file_, ValuesOf(specs, parameters)); });
   }
-  ~ScriptGroup() override
+  ScriptGroup(const ScriptGroup&) = delete;
+  ScriptGroup& operator=(const ScriptGroup&) = delete;
+  ~ScriptGroup()
   {
     const py::gil_scoped_acquire python;
     script_ = py::object();
   }
 
-  void ControlSteps(std::span<CCI_Controller* const> controllers) override
+  void ControlSteps(std::span<CCI_Controller* const> controllers)
   {
     WithPython(file_,
                [&]
@@ -250,7 +253,7 @@ std::shared_ptr<ScriptGroup> GroupOf(const TConfigurationTree& parameters)
   return group;
 }
 
-class PythonScriptController final : public CCI_Controller, public CCI_InStepGroup
+class PythonScriptController final : public CCI_BatchController
 {
 public:
   ~PythonScriptController() override
@@ -272,12 +275,7 @@ public:
     group_ = std::move(group);
     return RETURN_OK;
   }
-  void ControlStep() override
-  {
-    CCI_Controller* const self = this;
-    group_->ControlSteps(std::span(&self, 1));
-  }
-  CCI_StepGroup& StepGroup() override { return *group_; }
+  void ControlSteps(CCI_Batch& robots) override { group_->ControlSteps(robots.Controllers()); }
   void Destroy() override { group_->Call("destroy", this); }
 
   bool HasState() const override { return group_->HasState(*this); }

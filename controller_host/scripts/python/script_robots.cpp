@@ -33,29 +33,29 @@ Array MakeArray(std::size_t rows, std::size_t columns)
 
 ScriptRobots::ScriptRobots(std::span<CCI_Controller* const> controllers)
 {
-  for (const CCI_Controller* controller : controllers)
+  for (CCI_Controller* const controller : controllers)
   {
-    robots_.push_back(controller->GetRobot());
+    batch_.Add(*controller);
     keys_.push_back(KeyOf(*controller));
   }
 }
 
 const CCI_Sensor& ScriptRobots::Sensor(std::size_t robot, const std::string& type) const
 {
-  if (!robots_[robot]->HasSensor(type)) Unknown("sensor", type, Sensors());
-  return *robots_[robot]->GetSensor(type);
+  if (!batch_.Robot(robot).HasSensor(type)) Unknown("sensor", type, Sensors());
+  return *batch_.Robot(robot).GetSensor(type);
 }
 
-CCI_Actuator& ScriptRobots::Actuator(std::size_t robot, const std::string& type) const
+const CCI_Actuator& ScriptRobots::Actuator(const std::string& type) const
 {
-  if (!robots_[robot]->HasActuator(type)) Unknown("actuator", type, Actuators());
-  return *robots_[robot]->GetActuator(type);
+  if (!batch_.Robot(0).HasActuator(type)) Unknown("actuator", type, Actuators());
+  return *batch_.Robot(0).GetActuator(type);
 }
 
 std::vector<std::string> ScriptRobots::Ids() const
 {
   std::vector<std::string> ids;
-  for (const CCI_Robot* robot : robots_) ids.push_back(robot->GetId());
+  for (std::size_t k = 0; k < batch_.Size(); ++k) ids.push_back(batch_.Robot(k).GetId());
   return ids;
 }
 
@@ -69,23 +69,17 @@ std::vector<std::string> ScriptRobots::RowColumns(const std::string& sensor) con
 }
 std::vector<std::string> ScriptRobots::ActuatorColumns(const std::string& actuator) const
 {
-  return NamesOf(Actuator(0, actuator).Columns());
+  return NamesOf(Actuator(actuator).Columns());
 }
 
-Array ScriptRobots::Read(const std::string& sensor) const
+Array ScriptRobots::Read(const std::string& sensor)
 {
-  std::vector<double> values;
-  Array array;
-  for (std::size_t k = 0; k < robots_.size(); ++k)
-  {
-    values.clear();
-    Sensor(k, sensor).ReadColumns(values);
-    if (k == 0) array = MakeArray(robots_.size(), values.size());
-    if (static_cast<py::ssize_t>(values.size()) != array.shape(1))
-      throw py::value_error("the sensor '" + sensor + "' has columns of another number for the robot '" +
-                            robots_[k]->GetId() + "'; give each kind of robot a controller of its own");
-    std::copy(values.begin(), values.end(), array.mutable_data() + k * values.size());
-  }
+  // A sensor that has rows alone is read as an array without columns.
+  if (Sensor(0, sensor).Declared().readings.empty()) return MakeArray(batch_.Size(), 0);
+  const CCI_Readings readings = batch_.Readings(sensor);
+  Array array = MakeArray(batch_.Size(), readings.Columns());
+  double* next = array.mutable_data();
+  for (std::size_t k = 0; k < batch_.Size(); ++k) next = std::ranges::copy(readings[k], next).out;
   return array;
 }
 
@@ -93,7 +87,7 @@ std::vector<Array> ScriptRobots::Rows(const std::string& sensor) const
 {
   std::vector<Array> all;
   std::vector<double> values;
-  for (std::size_t k = 0; k < robots_.size(); ++k)
+  for (std::size_t k = 0; k < batch_.Size(); ++k)
   {
     const std::size_t width = Sensor(k, sensor).Rows().size();
     if (width == 0) throw py::key_error("the sensor '" + sensor + "' has no rows; read its columns");
@@ -107,37 +101,40 @@ std::vector<Array> ScriptRobots::Rows(const std::string& sensor) const
 
 std::vector<std::vector<std::string>> ScriptRobots::RowIds(const std::string& sensor) const
 {
-  std::vector<std::vector<std::string>> all(robots_.size());
-  for (std::size_t k = 0; k < robots_.size(); ++k) Sensor(k, sensor).ReadRowIds(all[k]);
+  std::vector<std::vector<std::string>> all(batch_.Size());
+  for (std::size_t k = 0; k < batch_.Size(); ++k) Sensor(k, sensor).ReadRowIds(all[k]);
   return all;
 }
 
 void ScriptRobots::Set(const std::string& actuator, const Array& values)
 {
-  const std::size_t width = Actuator(0, actuator).Columns().size();
-  if (values.ndim() != 2 || values.shape(0) != static_cast<py::ssize_t>(robots_.size()) ||
+  const bool has_columns = !Actuator(actuator).Declared().settings.empty();
+  const CCI_Commands commands = has_columns ? batch_.Commands(actuator) : CCI_Commands({}, 0);
+  const std::size_t width = commands.Columns();
+  if (values.ndim() != 2 || values.shape(0) != static_cast<py::ssize_t>(batch_.Size()) ||
       values.shape(1) != static_cast<py::ssize_t>(width))
-    throw py::value_error("the actuator '" + actuator + "' takes an array of " + std::to_string(robots_.size()) +
+    throw py::value_error("the actuator '" + actuator + "' takes an array of " + std::to_string(batch_.Size()) +
                           " robots and " + std::to_string(width) + " columns");
-  for (std::size_t k = 0; k < robots_.size(); ++k)
+  for (std::size_t k = 0; k < batch_.Size(); ++k)
   {
     const std::span row(values.data() + k * width, width);
     if (std::ranges::all_of(row, [](double value) { return std::isnan(value); })) continue;
     const auto wrong = std::ranges::find_if_not(row, [](double value) { return std::isfinite(value); });
     if (wrong != row.end())
       throw py::value_error("column " + std::to_string(wrong - row.begin()) + " of the actuator '" + actuator +
-                            "' of the robot '" + robots_[k]->GetId() + "' is not finite");
-    Actuator(k, actuator).SetColumns(row);
+                            "' of the robot '" + batch_.Robot(k).GetId() + "' is not finite");
+    std::ranges::copy(row, commands[k].begin());
   }
+  batch_.SetCommands();
 }
 
 template <class Draw>
 Array ScriptRobots::Drawn(std::size_t columns, Draw draw) const
 {
-  Array numbers = MakeArray(robots_.size(), columns);
+  Array numbers = MakeArray(batch_.Size(), columns);
   double* next = numbers.mutable_data();
-  for (CCI_Robot* robot : robots_)
-    for (std::size_t i = 0; i < columns; ++i) *next++ = draw(robot->GetRandom());
+  for (std::size_t k = 0; k < batch_.Size(); ++k)
+    for (std::size_t i = 0; i < columns; ++i) *next++ = draw(batch_.Robot(k).GetRandom());
   return numbers;
 }
 
@@ -149,6 +146,12 @@ Array ScriptRobots::Uniform(double low, double high, std::size_t columns) const
 Array ScriptRobots::Gaussian(double mean, double deviation, std::size_t columns) const
 {
   return Drawn(columns, [&](RandomStream& random) { return random.Gaussian(mean, deviation); });
+}
+
+void ScriptRobots::Log(std::size_t robot, const std::string& text) const
+{
+  if (robot >= batch_.Size()) throw py::index_error("there is no robot " + std::to_string(robot));
+  batch_.Robot(robot).Log(text);
 }
 
 }  // namespace swarmanoid::python_scripts

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "common/control_interface/ci_controller.h"
+#include "common/control_interface/ci_batch_controller.h"
 
 namespace swarmanoid::python_scripts
 {
@@ -27,19 +27,21 @@ public:
   {
     return reinterpret_cast<std::uintptr_t>(&controller);
   }
-  std::vector<std::string> Sensors() const { return robots_.front()->SensorTypes(); }
-  std::vector<std::string> Actuators() const { return robots_.front()->ActuatorTypes(); }
+  std::vector<std::string> Sensors() const { return batch_.Robot(0).SensorTypes(); }
+  std::vector<std::string> Actuators() const { return batch_.Robot(0).ActuatorTypes(); }
   // Return the names of columns with their units.
   std::vector<std::string> Columns(const std::string& sensor) const;
   std::vector<std::string> RowColumns(const std::string& sensor) const;
   std::vector<std::string> ActuatorColumns(const std::string& actuator) const;
 
-  std::uint64_t Tick() const { return robots_.front()->GetTick(); }
-  double Time() const { return robots_.front()->GetTime(); }
-  double TickSeconds() const { return robots_.front()->GetTickSeconds(); }
+  std::uint64_t Tick() const { return batch_.Robot(0).GetTick(); }
+  double Time() const { return batch_.Robot(0).GetTime(); }
+  double TickSeconds() const { return batch_.Robot(0).GetTickSeconds(); }
 
+  // Begins a step: Read returns the readings of that step.
+  void Begin() { batch_.Begin(); }
   // Returns the readings of the columns.
-  Array Read(const std::string& sensor) const;
+  Array Read(const std::string& sensor);
   // Return the rows of each robot, and the ids of the entities that they are about.
   std::vector<Array> Rows(const std::string& sensor) const;
   std::vector<std::vector<std::string>> RowIds(const std::string& sensor) const;
@@ -50,15 +52,15 @@ public:
   Array Uniform(double low, double high, std::size_t columns) const;
   Array Gaussian(double mean, double deviation, std::size_t columns) const;
 
-  void Log(std::size_t robot, const std::string& text) const { robots_.at(robot)->Log(text); }
+  void Log(std::size_t robot, const std::string& text) const;
 
 private:
   const CCI_Sensor& Sensor(std::size_t robot, const std::string& type) const;
-  CCI_Actuator& Actuator(std::size_t robot, const std::string& type) const;
+  const CCI_Actuator& Actuator(const std::string& type) const;
   template <class Draw>
   Array Drawn(std::size_t columns, Draw draw) const;
 
-  std::vector<CCI_Robot*> robots_;
+  CCI_Batch batch_;
   std::vector<std::uintptr_t> keys_;
 };
 

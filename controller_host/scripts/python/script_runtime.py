@@ -111,6 +111,7 @@ class Robots:
 
     def begin(self):
         """Forgets the readings and settings of the step before."""
+        self._native.begin()
         self.tick, self.time, self.tick_seconds = self._native.tick(), self._native.time(), self._native.tick_seconds()
         self.sensors = Arrays(self._native.read)
         self.actuators = Arrays(self._settings)

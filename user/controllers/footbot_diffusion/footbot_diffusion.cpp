@@ -31,22 +31,29 @@ const Directions kDirections;
 
 int CFootBotDiffusion::Init(const TConfigurationTree t_tree)
 {
-  wheels_ = &GetRobot()->Actuator<CCI_FootBotWheelsActuator>("footbot_wheels");
-  proximity_ = &GetRobot()->Sensor<CCI_FootBotProximitySensor>("footbot_proximity");
-  velocity_m_s_ = t_tree.GetNumber("velocity");
+  // A robot without one of them is refused before the run.
+  GetRobot()->Actuator<CCI_FootBotWheelsActuator>("footbot_wheels");
+  GetRobot()->Sensor<CCI_FootBotProximitySensor>("footbot_proximity");
+  speed_rad_s_ = t_tree.GetNumber("velocity") / CCI_FootBotWheelsActuator::WHEEL_RADIUS_M;
   delta_ = t_tree.GetNumber("delta");
   const SinCos alpha = SinCosOf(DegreesToRadians(t_tree.GetNumber("alpha")));
   tan_alpha_ = alpha.sin / alpha.cos;
   return RETURN_OK;
 }
 
-void CFootBotDiffusion::ControlStep()
+void CFootBotDiffusion::ControlSteps(CCI_Batch& robots)
+{
+  const CCI_Readings proximity = robots.Readings("footbot_proximity");
+  const CCI_Commands wheels = robots.Commands("footbot_wheels");
+  for (std::size_t k = 0; k < robots.Size(); ++k) Steer(proximity[k].data(), wheels[k].data());
+}
+
+void CFootBotDiffusion::Steer(const double* readings, double* wheels) const
 {
   // Four partial sums let the compiler add four readings at a time.
   constexpr unsigned kLanes = 4;
   std::array<double, kLanes> xs{};
   std::array<double, kLanes> ys{};
-  const auto readings = proximity_->GetAllSensorReadings();
   for (unsigned i = 0; i < CCI_FootBotProximitySensor::NUM_SENSORS; i += kLanes)
     for (unsigned lane = 0; lane < kLanes; ++lane) xs[lane] += readings[i + lane] * kDirections.cosines[i + lane];
   for (unsigned i = 0; i < CCI_FootBotProximitySensor::NUM_SENSORS; i += kLanes)
@@ -56,12 +63,9 @@ void CFootBotDiffusion::ControlStep()
 
   const bool far_away = x * x + y * y <= delta_ * delta_;
   const bool beside = y > x * tan_alpha_ || y < -x * tan_alpha_;
-  if (x <= 0 || (far_away && beside))
-    wheels_->SetFootBotWheelsLinearVelocity(velocity_m_s_, velocity_m_s_);
-  else if (y > 0)
-    wheels_->SetFootBotWheelsLinearVelocity(velocity_m_s_, 0);
-  else
-    wheels_->SetFootBotWheelsLinearVelocity(0, velocity_m_s_);
+  const bool goes_on = x <= 0 || (far_away && beside);
+  wheels[0] = goes_on || y > 0 ? speed_rad_s_ : 0;
+  wheels[1] = goes_on || y <= 0 ? speed_rad_s_ : 0;
 }
 
 REGISTER_CONTROLLER(
