@@ -238,7 +238,7 @@ void ControllerHost::ListSteps()
   for (const auto& [configuration, robots] : together)
   {
     const bool may_share = batches_->pool != nullptr && robots_[robots.front()].controller->StepsInParallel();
-    const std::size_t parts = may_share ? std::min<std::size_t>(robots.size(), batches_->pool->Threads()) : 1;
+    const std::size_t parts = may_share ? std::min<std::size_t>(robots.size(), batches_->pool->Parts()) : 1;
     std::vector<BatchOfRobots>& batches = batches_of_robots_.emplace_back(parts);
     for (std::size_t part = 0; part < parts; ++part)
       batches[part].robots.assign(robots.begin() + static_cast<std::ptrdiff_t>(robots.size() * part / parts),
@@ -762,20 +762,19 @@ void ControllerHost::StepBatches(std::uint64_t tick)
     }
     const SharedActivity activity(ActivityStep::kControlStep, tick);
     batches_->stopped.assign(parts.size(), nullptr);
-    batches_->pool->Run(
-        [&](unsigned k)
-        {
-          if (k >= parts.size()) return;
-          SharedActivity::Thread of_thread(k);
-          try
-          {
-            StepBatch(parts[k], tick, of_thread);
-          }
-          catch (...)
-          {
-            batches_->stopped[k] = std::current_exception();
-          }
-        });
+    batches_->pool->Run(static_cast<unsigned>(parts.size()),
+                        [&](unsigned k, unsigned thread)
+                        {
+                          SharedActivity::Thread of_thread(thread);
+                          try
+                          {
+                            StepBatch(parts[k], tick, of_thread);
+                          }
+                          catch (...)
+                          {
+                            batches_->stopped[k] = std::current_exception();
+                          }
+                        });
     // The failure of the first robot is reported, whichever thread was first.
     for (const std::exception_ptr& stopped : batches_->stopped)
       if (stopped != nullptr) std::rethrow_exception(stopped);
