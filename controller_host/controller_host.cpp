@@ -787,13 +787,21 @@ void ControllerHost::StepBatch(BatchOfRobots& robots, std::uint64_t tick, Activi
   CCI_Batch& batch = robots.batch;
   const std::uint64_t stream_tick = space_.StreamTick();
   const bool all_are_present = space_.Absent().empty();
-  batch.Clear();
-  for (const std::uint32_t k : robots.robots)
+  if (all_are_present && batch.Size() == robots.robots.size())
   {
-    const Robot& robot = robots_[k];
-    if (!all_are_present && !space_.IsPresent(robot.entity)) continue;
-    robot.interface->BeginControlStep(tick, stream_tick);
-    batch.Add(*robot.controller);
+    // The batch has them from the last tick.
+    for (std::size_t k = 0; k < batch.Size(); ++k) batch.Robot(k).BeginControlStep(tick, stream_tick);
+  }
+  else
+  {
+    batch.Clear();
+    for (const std::uint32_t k : robots.robots)
+    {
+      const Robot& robot = robots_[k];
+      if (!all_are_present && !space_.IsPresent(robot.entity)) continue;
+      robot.interface->BeginControlStep(tick, stream_tick);
+      batch.Add(*robot.controller);
+    }
   }
   batch.Begin();
   if (batch.Size() == 0) return;
