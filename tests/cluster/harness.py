@@ -157,11 +157,12 @@ class LauncherTest(unittest.TestCase):
 
     def kill_all(self, run):
         """All processes of a run die at once, as with their machine."""
-        pids = children_of(run.process.pid)
-        run.process.kill()
-        for pid in pids:
-            with contextlib.suppress(ProcessLookupError):
-                os.kill(pid, signal.SIGKILL)
+        pids = [run.process.pid, *children_of(run.process.pid)]
+        # All stop before the first one dies, so that none sees another one die.
+        for number in (signal.SIGSTOP, signal.SIGKILL):
+            for pid in pids:
+                with contextlib.suppress(ProcessLookupError):
+                    os.kill(pid, number)
         run.wait()
 
     def control(self, *words):

@@ -478,7 +478,6 @@ const tests = {
       const hull = (await seenAt("scout", 14)).filter(([r, g, b]) => r > g + 40 && g > b + 20);
       assert.ok(hull.length > 20, `${hull.length} pixels of the scout are orange`);
     });
-    await server.end();
   },
 
   async "walls between the eye and the arena hide no robot"() {
