@@ -138,7 +138,7 @@ class CCI_ColumnsOf : public CCI_Columns
 {
 public:
   // Adds a reading, or each number of a range. `count` is the number of columns for a range of variable size; missing
-  // numbers become zeros.
+  // numbers become zeros. A member function that returns a span of doubles spares CCI_Batch a copy.
   template <class Get>
   CCI_ColumnsOf& Add(CCI_Column column, Get get, std::size_t count = kNumbersIn<ResultOf<Get>>)
   {
