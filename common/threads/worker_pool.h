@@ -43,7 +43,7 @@ public:
 
   unsigned Threads() const { return static_cast<unsigned>(own_.size()); }
   // Returns the number of parts into which work of many equal items should be divided.
-  unsigned Parts() const { return Threads() * kPartsOfThread; }
+  unsigned Parts() const { return Threads() == 1 ? 1 : Threads() * kPartsOfThread; }
   // Returns whether code with work for the threads must share it now, or do it alone. (Run does not check.)
   bool Shares() const { return shares_; }
   void Share(bool shares) { shares_ = shares; }
@@ -71,8 +71,8 @@ public:
   }
 
 private:
-  // The parts of a thread that nobody has taken: the first one in the upper 16 bits, and the one behind the last. Each
-  // is on a line of the cache of its own.
+  // Names the parts of a thread that no thread has taken. The upper 16 bits are the number of the first one, and the
+  // lower 16 bits are the number behind the last one. Each object has a cache line of its own.
   struct alignas(64) Own
   {
     std::atomic<std::uint32_t> parts = 0;

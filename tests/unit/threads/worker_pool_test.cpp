@@ -33,6 +33,13 @@ TEST(WorkerPool, DoesEachPartOfAPieceOnce)
     }
 }
 
+// One thread has nobody to share with: its work, and the sensors of its robots, stay in one piece.
+TEST(WorkerPool, OneThreadHasOnePart)
+{
+  EXPECT_EQ(WorkerPool(1).Parts(), 1U);
+  EXPECT_EQ(WorkerPool(2).Parts(), 2 * WorkerPool::kPartsOfThread);
+}
+
 TEST(WorkerPool, NoPartIsNoWork)
 {
   WorkerPool pool(2);
