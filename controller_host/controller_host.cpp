@@ -86,6 +86,30 @@ struct ControllerHost::Batches
   bool split = false;                       // some sensor is
   std::vector<Failure> failures;            // of sensors, by part
   std::vector<std::exception_ptr> stopped;  // what stopped the controllers of a part
+
+  // Makes the control steps of all parts in the threads of the pool: steps(part, activity of the thread). The failure
+  // of the first part that failed is thrown, whichever thread was first.
+  template <class Steps>
+  void StepInThreads(std::size_t parts, std::uint64_t tick, const Steps& steps)
+  {
+    const SharedActivity activity(ActivityStep::kControlStep, tick);
+    stopped.assign(parts, nullptr);
+    pool->Run(static_cast<unsigned>(parts),
+              [&](unsigned k, unsigned thread)
+              {
+                SharedActivity::Thread of_thread(thread);
+                try
+                {
+                  steps(k, of_thread);
+                }
+                catch (...)
+                {
+                  stopped[k] = std::current_exception();
+                }
+              });
+    for (const std::exception_ptr& one : stopped)
+      if (one != nullptr) std::rethrow_exception(one);
+  }
 };
 
 template <class Do>
@@ -703,27 +727,14 @@ void ControllerHost::StepInTurn(std::span<const std::uint32_t> robots, std::uint
 
 void ControllerHost::StepInParallel(std::uint64_t tick)
 {
-  const SharedActivity activity(ActivityStep::kControlStep, tick);
   const std::size_t parts = batches_->pool->Parts();
-  batches_->stopped.assign(parts, nullptr);
-  batches_->pool->Run(batches_->pool->Parts(),
-                      [&](unsigned k, unsigned thread)
-                      {
-                        const std::size_t begin = parallel_.size() * k / parts;
-                        const std::size_t end = parallel_.size() * (k + 1) / parts;
-                        SharedActivity::Thread of_thread(thread);
-                        try
-                        {
-                          ControlSteps(std::span(parallel_).subspan(begin, end - begin), tick, of_thread);
-                        }
-                        catch (...)
-                        {
-                          batches_->stopped[k] = std::current_exception();
-                        }
-                      });
-  // The failure of the first robot is reported, whichever thread was first.
-  for (const std::exception_ptr& stopped : batches_->stopped)
-    if (stopped != nullptr) std::rethrow_exception(stopped);
+  batches_->StepInThreads(parts, tick,
+                          [&](std::size_t k, SharedActivity::Thread& of_thread)
+                          {
+                            const std::size_t begin = parallel_.size() * k / parts;
+                            const std::size_t end = parallel_.size() * (k + 1) / parts;
+                            ControlSteps(std::span(parallel_).subspan(begin, end - begin), tick, of_thread);
+                          });
 }
 
 template <class ActivityOfThread>
@@ -760,24 +771,9 @@ void ControllerHost::StepBatches(std::uint64_t tick)
       for (BatchOfRobots& part : parts) StepBatch(part, tick, activity);
       continue;
     }
-    const SharedActivity activity(ActivityStep::kControlStep, tick);
-    batches_->stopped.assign(parts.size(), nullptr);
-    batches_->pool->Run(static_cast<unsigned>(parts.size()),
-                        [&](unsigned k, unsigned thread)
-                        {
-                          SharedActivity::Thread of_thread(thread);
-                          try
-                          {
-                            StepBatch(parts[k], tick, of_thread);
-                          }
-                          catch (...)
-                          {
-                            batches_->stopped[k] = std::current_exception();
-                          }
-                        });
-    // The failure of the first robot is reported, whichever thread was first.
-    for (const std::exception_ptr& stopped : batches_->stopped)
-      if (stopped != nullptr) std::rethrow_exception(stopped);
+    batches_->StepInThreads(parts.size(), tick,
+                            [&](std::size_t k, SharedActivity::Thread& of_thread)
+                            { StepBatch(parts[k], tick, of_thread); });
   }
 }
 
