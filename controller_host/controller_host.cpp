@@ -26,6 +26,7 @@
 #include "common/control_interface/init_controller.h"
 #include "common/experiment/actors.h"
 #include "common/logging/log.h"
+#include "common/math/finite.h"
 #include "common/messages/attribute_changes.h"
 #include "common/space/attributes.h"
 #include "common/space/collision_models.h"

@@ -65,6 +65,18 @@ std::vector<char> ReadWhole(const std::string& path)
   return file.Read(0, file.Size());
 }
 
+// Erases the first element of this name from a text of XML, with its content and the space before it.
+void EraseElement(std::string& text, const std::string& name)
+{
+  std::size_t start = text.find("<" + name + ">");
+  std::string end_tag = "</" + name + ">";
+  if (start == std::string::npos) start = text.find(end_tag = "<" + name + "/>");
+  const std::size_t end = text.find(end_tag, start);
+  if (start == std::string::npos || end == std::string::npos) return;
+  const std::size_t before = text.find_last_not_of(" \n", start - 1) + 1;
+  text.erase(before, end + end_tag.size() - before);
+}
+
 }  // namespace
 
 std::span<const char> Checkpoint::StateOf(const std::string& name) const
@@ -76,15 +88,10 @@ std::span<const char> Checkpoint::StateOf(const std::string& name) const
 
 std::uint64_t FingerprintOf(const Experiment& experiment)
 {
-  // A restored run may be longer than the original run, and its files may have been moved. CheckpointOrigin::libraries
-  // has their contents.
+  // A restored run may be longer than the original run and be shown in another way, and its files may have been moved.
+  // CheckpointOrigin::libraries has their contents.
   std::string text = experiment.effective_xml;
-  for (const std::string name : {"maxclock>", "folder>"})
-  {
-    const std::size_t start = text.find("<" + name);
-    const std::size_t end = text.find("</" + name, start);
-    if (start != std::string::npos && end != std::string::npos) text.erase(start, end - start);
-  }
+  for (const char* const name : {"maxclock", "folder", "visualisations"}) EraseElement(text, name);
   return XXH3_64bits(text.data(), text.size());
 }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "common/math/finite.h"
+
 namespace swarmanoid
 {
 namespace
@@ -12,16 +14,6 @@ namespace
 
 constexpr std::uint64_t kNotWrittenBits = 0x7ff8'6e6f'7420'7365;
 constexpr double kNotWritten = std::bit_cast<double>(kNotWrittenBits);
-
-// The exponent of a number that is not finite has all its bits.
-bool AllFinite(std::span<const double> values)
-{
-  constexpr std::uint64_t kExponent = 0x7ff0'0000'0000'0000;
-  constexpr std::uint64_t kOne = 0x0010'0000'0000'0000;
-  std::uint64_t sums = 0;
-  for (const double value : values) sums |= (std::bit_cast<std::uint64_t>(value) & kExponent) + kOne;
-  return sums >> 63U == 0;
-}
 
 bool IsWritten(double value) { return std::bit_cast<std::uint64_t>(value) != kNotWrittenBits; }
 
@@ -90,18 +82,29 @@ void CCI_Batch::RefuseColumns(const char* what, const std::string& type, std::si
                         "; give each kind of robot a controller of its own");
 }
 
+// Sets the devices and columns of a table. `find`: a robot's device and the number of its columns.
+template <class Table, class Find>
+void CCI_Batch::Fill(Table& table, const char* what, const Find& find)
+{
+  for (std::size_t k = 0; k < Size(); ++k)
+  {
+    const auto [device, columns] = find(Robot(k));
+    if (k == 0) table.columns = columns;
+    if (columns != table.columns || columns == 0) RefuseColumns(what, table.type, table.columns, columns, k);
+    table.devices.push_back(device);
+  }
+}
+
 CCI_Batch::Sensors& CCI_Batch::SensorsOf(std::string_view type)
 {
   if (const auto found = TableOf(sensors_, type); found != sensors_.end()) return *found;
   Sensors sensors{std::string(type)};
-  for (std::size_t k = 0; k < Size(); ++k)
-  {
-    const CCI_Sensor& sensor = *Robot(k).GetSensor(sensors.type);
-    const std::size_t columns = CountOf(sensor.Declared().readings, sensor);
-    if (k == 0) sensors.columns = columns;
-    if (columns != sensors.columns || columns == 0) RefuseColumns("sensor", sensors.type, sensors.columns, columns, k);
-    sensors.devices.push_back(&sensor);
-  }
+  Fill(sensors, "sensor",
+       [&](CCI_Robot& robot)
+       {
+         const CCI_Sensor* const sensor = robot.GetSensor(sensors.type);
+         return std::pair(sensor, CountOf(sensor->Declared().readings, *sensor));
+       });
   if (Size() > 0) sensors.in_place = GroupInPlace(sensors.devices.front()->Declared());
   sensors.rows.resize(Size());
   return sensors_.emplace_back(std::move(sensors));
@@ -111,15 +114,12 @@ CCI_Batch::Actuators& CCI_Batch::ActuatorsOf(std::string_view type)
 {
   if (const auto found = TableOf(actuators_, type); found != actuators_.end()) return *found;
   Actuators actuators{std::string(type)};
-  for (std::size_t k = 0; k < Size(); ++k)
-  {
-    CCI_Actuator& actuator = *Robot(k).GetActuator(actuators.type);
-    const std::size_t columns = CountOf(actuator.Declared().settings, actuator);
-    if (k == 0) actuators.columns = columns;
-    if (columns != actuators.columns || columns == 0)
-      RefuseColumns("actuator", actuators.type, actuators.columns, columns, k);
-    actuators.devices.push_back(&actuator);
-  }
+  Fill(actuators, "actuator",
+       [&](CCI_Robot& robot)
+       {
+         CCI_Actuator* const actuator = robot.GetActuator(actuators.type);
+         return std::pair(actuator, CountOf(actuator->Declared().settings, *actuator));
+       });
   actuators.table.resize(Size() * actuators.columns);
   return actuators_.emplace_back(std::move(actuators));
 }

@@ -120,6 +120,8 @@ private:
   };
 
   void Replace(CCI_Controller& controller);
+  template <class Table, class Find>
+  void Fill(Table& table, const char* what, const Find& find);
   Sensors& SensorsOf(std::string_view type);
   Actuators& ActuatorsOf(std::string_view type);
   void Read(Sensors& sensors);

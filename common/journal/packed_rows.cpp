@@ -14,6 +14,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "common/math/lanes.h"
+
 namespace swarmanoid
 {
 namespace
@@ -23,6 +25,7 @@ constexpr std::size_t kSide = 8;  // numbers of a row that are packed together: 
 // The most numbers of the ticks that are packed together; they fit into the caches.
 constexpr std::size_t kMostNumbers = std::size_t{1} << 19U;
 using Line = std::array<std::uint64_t, kSide>;
+typedef std::uint64_t BitLanes __attribute__((vector_size(sizeof(DoubleLanes))));
 
 // Maps small differences of either sign to small numbers.
 std::uint64_t Folded(std::uint64_t difference) { return (difference << 1U) ^ (0 - (difference >> 63U)); }
@@ -41,17 +44,11 @@ std::uint64_t FoldedDifference(double number, double expected)
   return Folded(std::bit_cast<std::uint64_t>(number) - std::bit_cast<std::uint64_t>(expected));
 }
 
-// Computes the folded differences of a line of numbers that are all expected from that many values before.
-template <int kValues>
-void FoldLine(const double* at, const double* before, const double* before_that, Line& folded)
+// Does so in each lane.
+BitLanes FoldedDifference(DoubleLanes numbers, DoubleLanes expected)
 {
-  for (std::size_t k = 0; k < kSide; ++k)
-  {
-    double expected = 0;
-    if constexpr (kValues > 0) expected = before[k];
-    if constexpr (kValues > 1) expected += before[k] - before_that[k];
-    folded[k] = FoldedDifference(at[k], expected);
-  }
+  const BitLanes difference = reinterpret_cast<BitLanes>(numbers) - reinterpret_cast<BitLanes>(expected);
+  return difference << 1 ^ reinterpret_cast<BitLanes>(reinterpret_cast<LongLanes>(difference) < 0);
 }
 
 char BytesOf(std::uint64_t folded) { return static_cast<char>((std::bit_width(folded) + 7) / 8); }
@@ -73,26 +70,25 @@ public:
   void Whole(std::size_t first, std::size_t end)
   {
     std::array<Line, kTicks> lines;
-    char* out = out_;  // in a register
+    Line any;
     for (; first < end; first += kSide)
     {
-      Line any{};
-      for (std::size_t tick = 0; tick < kTicks; ++tick)
+      BitLanes any_of_line{};
+      for (std::size_t k = 0; k < kSide; k += kDoubleLanes)
       {
-        FoldLine<kValues>(rows_[tick + 2] + first, rows_[tick + 1] + first, rows_[tick] + first, lines[tick]);
-        for (std::size_t k = 0; k < kSide; ++k) any[k] |= lines[tick][k];
+        const BitLanes any_of_lanes = FoldLanes<kValues>(first + k, k, lines);
+        std::memcpy(&any[k], &any_of_lanes, sizeof any_of_lanes);
+        any_of_line |= any_of_lanes;
       }
-      std::uint64_t any_of_line = 0;
-      for (const std::uint64_t differences : any) any_of_line |= differences;
-      if (any_of_line == 0) continue;  // the widths are 0 already
+      if (LaneMask(any_of_line != 0) == 0) continue;  // the widths are 0 already
       for (std::size_t k = 0; k < kSide; ++k)
       {
         const char width = BytesOf(any[k]);
         widths_[first + k] = width;
-        for (std::size_t tick = 0; tick < kTicks; ++tick) out = Store(lines[tick][k], width, out);
+        for (std::size_t tick = 0; tick < kTicks; ++tick) Store(lines[tick][k], out_ + tick * width);
+        out_ += kTicks * width;
       }
     }
-    out_ = out;
   }
   // Packs any numbers, of which those below `moving` move. `packed`: the number of earlier rows.
   void Any(std::size_t first, std::size_t end, std::size_t moving, std::size_t packed)
@@ -106,17 +102,35 @@ public:
             FoldedDifference(rows_[tick + 2][first],
                              Expected(rows_[tick + 1] + first, rows_[tick] + first, packed + tick, first < moving));
       widths_[first] = BytesOf(any);
-      for (std::size_t tick = 0; tick < ticks_; ++tick) out_ = Store(folded[tick], widths_[first], out_);
+      for (std::size_t tick = 0; tick < ticks_; ++tick, out_ += widths_[first]) Store(folded[tick], out_);
     }
   }
 
 private:
-  // All eight bytes are written; the next number overwrites the unneeded ones.
-  static char* Store(std::uint64_t folded, char width, char* out)
+  // Writes the folded differences of some consecutive numbers at all ticks to the line of each tick, from place k on.
+  // Returns the bits that any of them has.
+  template <int kValues, std::size_t kTicks>
+  BitLanes FoldLanes(std::size_t number, std::size_t k, std::array<Line, kTicks>& lines) const
   {
-    std::memcpy(out, &folded, sizeof folded);
-    return out + width;
+    BitLanes any{};
+    DoubleLanes before_that = LoadLanes(rows_[0] + number);
+    DoubleLanes before = LoadLanes(rows_[1] + number);
+    for (std::size_t tick = 0; tick < kTicks; ++tick)
+    {
+      const DoubleLanes numbers = LoadLanes(rows_[tick + 2] + number);
+      DoubleLanes expected{};
+      if constexpr (kValues > 0) expected = before;
+      if constexpr (kValues > 1) expected += before - before_that;
+      const BitLanes folded = FoldedDifference(numbers, expected);
+      std::memcpy(&lines[tick][k], &folded, sizeof folded);
+      any |= folded;
+      before_that = before;
+      before = numbers;
+    }
+    return any;
   }
+  // All eight bytes are written; the next number overwrites the unneeded ones.
+  static void Store(std::uint64_t folded, char* out) { std::memcpy(out, &folded, sizeof folded); }
 
   const Rows& rows_;
   std::size_t ticks_;

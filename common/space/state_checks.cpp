@@ -4,9 +4,9 @@
 
 #include <array>
 #include <atomic>
-#include <bit>
 #include <cmath>
 #include <map>
+#include "common/math/finite.h"
 #include "common/space/battery_slots.h"
 #include "common/space/message_slots.h"
 #include "common/space/space.h"
@@ -25,13 +25,6 @@ std::string NameOf(const CSwarmanoidSpace& space, std::uint32_t entity)
 {
   const CSwarmanoidSpaceEntity& it = space.GetEntity(entity);
   return fmt::format("the {} '{}'", TagName(it.GetKind()), it.GetId());
-}
-
-// Returns 1 if a value is infinite or NaN: then all bits of its exponent are set.
-std::uint64_t IsNotFinite(double value)
-{
-  constexpr std::uint64_t kExponent = 0x7ff0000000000000;
-  return static_cast<std::uint64_t>((std::bit_cast<std::uint64_t>(value) & kExponent) == kExponent);
 }
 
 // Returns 1 if a value is outside the range, or NaN.
@@ -82,7 +75,7 @@ bool AllOfNormOne(const double* qx, const double* qy, const double* qz, const do
 [[noreturn]] void RefusePose(const CSwarmanoidSpace& space, std::uint32_t entity, const std::array<double, 7>& pose)
 {
   for (std::size_t c = 0; c < pose.size(); ++c)
-    if (IsNotFinite(pose[c]) != 0)
+    if (!AllFinite({&pose[c], 1}))
       Refuse(fmt::format("{} has a pose with {} = {}; the numbers of a pose must be finite", NameOf(space, entity),
                          kComponents[c], pose[c]));
   Refuse(fmt::format(
@@ -189,13 +182,6 @@ std::string NameOfSlot(const CSwarmanoidSpace& space, std::uint32_t slot)
 std::uint32_t EntityOfSlot(const CSwarmanoidSpace& space, std::uint32_t slot)
 {
   return space.AttributeValues().EntityOf(slot);
-}
-
-bool AllFinite(std::span<const double> values)
-{
-  std::uint64_t bad = 0;
-  for (const double value : values) bad |= IsNotFinite(value);
-  return bad == 0;
 }
 
 void CheckPoses(const CSwarmanoidSpace& space, std::span<const std::uint32_t> entities, std::span<const double> poses,
@@ -404,7 +390,7 @@ void CheckChannels(const CSwarmanoidSpace& space, std::span<const ChannelBlock> 
     const auto width = static_cast<std::size_t>(block.width);
     for (std::size_t k = 0; k < block.entities.size(); ++k)
       for (std::size_t i = 0; i < width; ++i)
-        if (const double value = values[block.offset + k * width + i]; IsNotFinite(value) != 0)
+        if (const double value = values[block.offset + k * width + i]; !AllFinite({&value, 1}))
           Refuse(fmt::format("the {} of {} on the channel '{}' hold {}; they must be finite", what,
                              NameOf(space, block.entities[k]), block.name, value));
   }

@@ -29,8 +29,6 @@ public:
 // The squared norm of an orientation may differ from 1 by this much.
 inline constexpr double kNormTolerance = 1e-6;
 
-bool AllFinite(std::span<const double> values);
-
 // The checks throw StateError. Poses are structures of arrays over `entities`, as in EngineUpdate. CheckPoses requires
 // the right count of numbers, all finite, and orientations of norm 1. The threads of a pool share the work.
 void CheckPoses(const CSwarmanoidSpace& space, std::span<const std::uint32_t> entities, std::span<const double> poses,

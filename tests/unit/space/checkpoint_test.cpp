@@ -152,14 +152,18 @@ TEST_F(CheckpointFile, IsRestoredIntoALongerRunAndIntoNoOtherOne)
               testing::ThrowsMessage<std::runtime_error>(HasSubstr("it is of another experiment")));
 }
 
-TEST(Fingerprints, DependNeitherOnTheLengthNorOnTheFolderOfTheFiles)
+TEST(Fingerprints, DependNeitherOnTheLengthNorOnTheFolderOfTheFilesNorOnWhatIsShown)
 {
-  const auto of = [](const char* framework)
+  const auto of = [](const char* framework, const char* visualisations = "")
   {
     Experiment experiment;
-    experiment.effective_xml = fmt::format("<ahss-config><framework>{}</framework></ahss-config>", framework);
+    experiment.effective_xml = fmt::format("<ahss-config>\n  <framework>{}</framework>{}\n  <arena/>\n</ahss-config>",
+                                           framework, visualisations);
     return FingerprintOf(experiment);
   };
+  EXPECT_EQ(of("", "\n  <visualisations>\n    <text_render id=\"text\"/>\n  </visualisations>"), of(""));
+  EXPECT_EQ(of("", "\n  <visualisations/>"), of(""));
+  EXPECT_NE(of("", "\n  <loop_functions/>"), of(""));
   EXPECT_EQ(of("<maxclock>10</maxclock><folder>/here</folder>"), of("<maxclock>20</maxclock><folder>there</folder>"));
   EXPECT_NE(of("<seed>1</seed><folder>/here</folder>"), of("<seed>2</seed><folder>/here</folder>"));
 }

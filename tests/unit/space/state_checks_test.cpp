@@ -1,4 +1,5 @@
 #include "common/space/state_checks.h"
+#include "common/math/finite.h"
 #include "common/space/space.h"
 #include "tests/world/message_of.h"
 #include "tests/world/small_experiment.h"
