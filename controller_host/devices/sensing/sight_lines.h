@@ -81,7 +81,9 @@ private:
   double reach_ = 0;
   NearBodies near_;
   SightPoints points_;
-  bool are_origins_ = false;  // the points are those of LookAtBodiesAround
+  bool are_origins_ = false;       // the points are those of LookAtBodiesAround
+  std::vector<float> same_level_;  // zeros
+  PointView shown_;                // the points that Solve looks at
   SeenPoints seen_;
 
   NearBodies discs_;  // upright cylinders that hide things from the observer, if not all that are near do
