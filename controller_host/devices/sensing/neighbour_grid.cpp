@@ -108,6 +108,7 @@ NeighbourGrid::NeighbourGrid(const CSwarmanoidSpace& space, const BodyShapes& sh
 
 void NeighbourGrid::Rebuild(WorkerPool* pool)
 {
+  ++rebuilds_;
   sorted_from_ = bodies_;
   if (!space_.Absent().empty())
   {

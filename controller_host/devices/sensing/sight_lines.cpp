@@ -105,9 +105,27 @@ void SightLines::FindHeights()
   highest_ = Highest(highest);
 }
 
+// Takes the bounds of all bodies in the grid, which are found once a tick, as far as the eye reaches.
+void SightLines::FindOutlineOfOrigins()
+{
+  const NeighbourGrid& grid = world_.Grid();
+  if (origins_.rebuilds != grid.Rebuilds())
+  {
+    const std::size_t count = grid.Sorted().size();
+    const auto [left, right] = std::ranges::minmax(std::span(grid.OriginX(), count));
+    const auto [back, front] = std::ranges::minmax(std::span(grid.OriginY(), count));
+    origins_ = {grid.Rebuilds(), left, right, back, front};
+  }
+  left_ = static_cast<float>(std::clamp(origins_.left - eye_.x(), -reach_, 0.0));
+  right_ = static_cast<float>(std::clamp(origins_.right - eye_.x(), 0.0, reach_));
+  back_ = static_cast<float>(std::clamp(origins_.back - eye_.y(), -reach_, 0.0));
+  front_ = static_cast<float>(std::clamp(origins_.front - eye_.y(), 0.0, reach_));
+}
+
 void SightLines::FindOutline()
 {
   has_outline_ = true;
+  if (are_origins_) return FindOutlineOfOrigins();
   FloatLanes left{}, right{}, back{}, front{};
   for (std::size_t i = 0; i < shown_.count; i += kLanes)
   {
