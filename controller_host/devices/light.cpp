@@ -46,12 +46,10 @@ struct Argos3  // exp(-2 d / I), nothing beyond d / I = 2.5: footbot_light_rotzo
   static constexpr double kEnds = 2.5;
 };
 
-// Does what WrapAngle does, for lanes.
-inline DoubleLanes Wrapped(DoubleLanes angle)
+inline DoubleLanes Magnitude(DoubleLanes lanes)
 {
-  constexpr double kRounder = 0x1.8p52;  // adding it leaves no fraction
-  const DoubleLanes turns = (angle * (0.5 / kPi) + kRounder) - kRounder;
-  return angle - turns * (2 * kPi);
+  constexpr std::int64_t kAllButSign = 0x7fffffffffffffff;
+  return reinterpret_cast<DoubleLanes>(reinterpret_cast<LongLanes>(lanes) & kAllButSign);
 }
 
 template <class Interface, class Model>
@@ -73,6 +71,11 @@ public:
     for (std::size_t k = 0; k < this->robots_.size(); ++k)
       place_of_entity_[this->robots_[k]] = static_cast<std::int32_t>(k);
     points_.Reserve(this->robots_.size());
+    const std::size_t room = points_.x.size();
+    for (std::vector<std::uint32_t>* values : {&k_of_point_, &lit_}) values->resize(room);
+    for (std::vector<double>* values :
+         {&turned_z_, &turned_w_, &ahead_, &beside_, &square_, &lit_ahead_, &lit_beside_, &bearing_, &brightness_})
+      values->resize(room);
     for (unsigned i = 0; i < kSensors; ++i) angles_[i] = Interface::AngleOf(i);
     InitDemand(this->robots_.size());
     devices_.reserve(this->robots_.size());
@@ -125,14 +128,19 @@ private:
     const PoseArrays& poses = this->space_->Poses();
     for (const std::uint32_t robot : world_->Grid().Sorted())
     {
-      if (const std::int32_t k = place_of_entity_[robot]; k < 0 || !IsDue(static_cast<std::size_t>(k))) continue;
+      const std::int32_t k = place_of_entity_[robot];
+      if (k < 0 || !IsDue(static_cast<std::size_t>(k))) continue;
       constexpr double kHeight = Model::template kHeight<Interface>;
       const Vector3 point = IsUpright(poses, robot) ? Vector3(poses.x[robot], poses.y[robot], poses.z[robot] + kHeight)
                                                     : this->space_->GetPose(robot).Apply({0, 0, kHeight});
-      points_.x[points_.count] = point.x();
-      points_.y[points_.count] = point.y();
-      points_.z[points_.count] = point.z();
-      points_.robot[points_.count++] = robot;
+      const std::size_t i = points_.count++;
+      points_.x[i] = point.x();
+      points_.y[i] = point.y();
+      points_.z[i] = point.z();
+      points_.robot[i] = robot;
+      k_of_point_[i] = static_cast<std::uint32_t>(k);
+      turned_z_[i] = poses.qz[robot];
+      turned_w_[i] = poses.qw[robot];
     }
   }
 
@@ -146,48 +154,78 @@ private:
     shadows_->Sort(source, Model::Reach(intensity));
     seen_.clear();
     shadows_->Look(points_, fixed_[b], seen_);
+    FindWays(source);
 
-    const std::size_t whole = (seen_.size() + kLanes - 1) / kLanes * kLanes;
-    for (std::vector<double>* values : {&ahead_, &beside_, &brightness_, &bearing_}) values->resize(whole);
-    for (std::size_t i = 0; i < seen_.size(); ++i)
+    // The lit points are compacted, so that many bearings are computed at a time.
+    std::size_t lit = 0;
+    for (const std::uint32_t p : seen_)
     {
-      const std::uint32_t p = seen_[i];
-      const Vector3 way = source - Vector3(points_.x[p], points_.y[p], points_.z[p]);
-      const Vector3 place = InFrameOf(points_.robot[p], way);
-      ahead_[i] = place.x();
-      beside_[i] = place.y();
-      brightness_[i] = Model::Brightness(intensity, place.squaredNorm());
+      brightness_[lit] = Model::Brightness(intensity, square_[p]);
+      lit_ahead_[lit] = ahead_[p];
+      lit_beside_[lit] = beside_[p];
+      lit_[lit] = k_of_point_[p];
+      lit += brightness_[lit] >= kNegligible ? 1 : 0;
     }
-    Atan2Each(beside_, ahead_, bearing_);
-    for (std::size_t i = 0; i < seen_.size(); ++i)
-      if (brightness_[i] >= kNegligible)
-        Shine(this->ValuesOf(static_cast<std::size_t>(place_of_entity_[points_.robot[seen_[i]]])), bearing_[i],
-              brightness_[i]);
+    const std::size_t whole = (lit + kLanes - 1) / kLanes * kLanes;
+    Atan2Each({lit_beside_.data(), whole}, {lit_ahead_.data(), whole}, {bearing_.data(), whole});
+    for (std::size_t i = 0; i < lit; ++i) Shine(this->ValuesOf(lit_[i]), bearing_[i], brightness_[i]);
   }
 
-  // Turns a direction into the frame of a robot. For an upright robot the quaternion has x = y = 0, which shortens the
-  // product.
-  Vector3 InFrameOf(std::uint32_t robot, const Vector3& way) const
+  // Finds the way from each point to a source in the frame of its robot. For an upright robot the quaternion has
+  // x = y = 0, which shortens the product.
+  void FindWays(const Vector3& source)
   {
-    const PoseArrays& poses = this->space_->Poses();
-    if (!IsUpright(poses, robot)) return this->space_->GetPose(robot).orientation.conjugate() * way;
-    const double z = -poses.qz[robot];
-    const double w = poses.qw[robot];
-    const double x2 = -z * way.y() + -z * way.y();
-    const double y2 = z * way.x() + z * way.x();
-    return {way.x() + w * x2 - z * y2, way.y() + w * y2 + z * x2, way.z()};
+    for (std::size_t i = 0; i < points_.count; i += kDoubleLanes)
+    {
+      const DoubleLanes x = source.x() - LoadLanes(&points_.x[i]);
+      const DoubleLanes y = source.y() - LoadLanes(&points_.y[i]);
+      const DoubleLanes up = source.z() - LoadLanes(&points_.z[i]);
+      const DoubleLanes z = -LoadLanes(&turned_z_[i]);
+      const DoubleLanes w = LoadLanes(&turned_w_[i]);
+      const DoubleLanes x2 = -z * y + -z * y;
+      const DoubleLanes y2 = z * x + z * x;
+      const DoubleLanes ahead = x + w * x2 - z * y2;
+      const DoubleLanes beside = y + w * y2 + z * x2;
+      StoreLanes(ahead, &ahead_[i]);
+      StoreLanes(beside, &beside_[i]);
+      StoreLanes(ahead * ahead + (beside * beside + up * up), &square_[i]);
+    }
+    if (world_->Grid().AllUpright()) return;
+    for (std::size_t i = 0; i < points_.count; ++i)
+    {
+      if (IsUpright(this->space_->Poses(), points_.robot[i])) continue;
+      const Eigen::Quaterniond to_robot = this->space_->GetPose(points_.robot[i]).orientation.conjugate();
+      const Vector3 way = to_robot * Vector3(source - points_.At(i));
+      ahead_[i] = way.x();
+      beside_[i] = way.y();
+      square_[i] = way.squaredNorm();
+    }
   }
 
+  // Adds a light to the sensors that face it: at most kFacing neighbours, since a sensor sees a quarter turn to each
+  // side. They begin left of the light's right side, but at it if rounding leaves this open.
   void Shine(double* readings, double bearing, double brightness) const
   {
-    for (unsigned i = 0; i < kSensors; i += kDoubleLanes)
+    constexpr double kRounding = 1e-9;
+    const double right = (bearing - kPi / 2 - Interface::FIRST_ANGLE) / Interface::SPACING + kSensors;
+    const unsigned* group = &kGroups[static_cast<std::size_t>(right + (1 - kRounding)) / kDoubleLanes];
+    constexpr unsigned kFacing = kSensors / 2 + 1;
+    for (unsigned n = 0; n < (kFacing + kDoubleLanes - 2) / kDoubleLanes + 1; ++n, ++group)
     {
-      const DoubleLanes turn = Wrapped(LoadLanes(&angles_[i]) - bearing);
-      const DoubleLanes off = Maximum(turn, -turn);
+      const DoubleLanes turn = Magnitude(bearing - LoadLanes(&angles_[*group]));
+      const DoubleLanes off = Minimum(turn, Magnitude(2 * kPi - turn));
       const DoubleLanes share = Maximum(1 - off / (kPi / 2), DoubleLanes{});
-      StoreLanes(LoadLanes(&readings[i]) + brightness * share, &readings[i]);
+      StoreLanes(LoadLanes(&readings[*group]) + brightness * share, &readings[*group]);
     }
   }
+
+  // The first sensor of each kDoubleLanes around the ring, for two turns.
+  static constexpr auto kGroups = []
+  {
+    std::array<unsigned, 2 * kSensors / kDoubleLanes> groups{};
+    for (unsigned n = 0; n < groups.size(); ++n) groups[n] = n * kDoubleLanes % kSensors;
+    return groups;
+  }();
 
   std::shared_ptr<SensorWorld> world_;
   std::vector<Bulb> bulbs_;
@@ -195,9 +233,15 @@ private:
   std::unique_ptr<MovingShadows> shadows_;
   std::vector<std::int32_t> place_of_entity_;  // k of an entity, or -1
   std::vector<std::uint32_t> made_;            // k of the robots whose readings were due
-  SightedPoints points_;                       // of this tick
-  std::vector<std::uint32_t> seen_;            // of them, by the bulb in turn
-  std::vector<double> ahead_, beside_, bearing_, brightness_;
+  // By point of this tick: the k and the orientation of its robot, and the way to the bulb in turn (m, m²).
+  SightedPoints points_;
+  std::vector<std::uint32_t> k_of_point_;
+  std::vector<double> turned_z_, turned_w_;
+  std::vector<double> ahead_, beside_, square_;
+  std::vector<std::uint32_t> seen_;  // numbers of points that see the bulb in turn
+  // By robot that the bulb in turn lights: k, the way to the bulb, and how it sees the bulb.
+  std::vector<std::uint32_t> lit_;
+  std::vector<double> lit_ahead_, lit_beside_, bearing_, brightness_;
   std::array<double, kSensors> angles_{};
   std::vector<ReadingsOnDemand<Interface, kSensors>> devices_;
 };

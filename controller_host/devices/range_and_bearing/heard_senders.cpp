@@ -36,24 +36,26 @@ void HeardSenders::Add(std::size_t more, const NeighbourGrid& grid, const Vector
   const double* const origin_y = grid.OriginY();
   const double* const origin_z = grid.OriginZ();
   const bool is_level = grid.AllLevel();
+  // These local copies are needed because the compiler must assume that stores of lanes change what is referred to.
+  const double own_x = own.x(), own_y = own.y(), own_z = own.z();
+  const double cos = heading.cos, sin = heading.sin;
   const std::size_t behind = count + more;
+  StoreLanes(HalfIntLanes{}, &to.place[behind]);  // the lanes behind the last sender read some place, too
   for (std::size_t i = count; i < behind; i += kDoubleLanes)
   {
-    HalfIntLanes place = LoadAs<HalfIntLanes>(&to.place[i]);
-    if (behind - i < kDoubleLanes)
-      for (std::size_t lane = behind - i; lane < kDoubleLanes; ++lane) place[lane] = 0;
-    const DoubleLanes x = Gathered(origin_x, place) - own.x();
-    const DoubleLanes y = Gathered(origin_y, place) - own.y();
+    const HalfIntLanes place = LoadAs<HalfIntLanes>(&to.place[i]);
+    const DoubleLanes x = Gathered(origin_x, place) - own_x;
+    const DoubleLanes y = Gathered(origin_y, place) - own_y;
     DoubleLanes square = x * x + y * y;
     if (!is_level)
     {
-      const DoubleLanes z = Gathered(origin_z, place) - own.z();
+      const DoubleLanes z = Gathered(origin_z, place) - own_z;
       square += z * z;
       StoreLanes(z, &to.z[i]);
     }
     StoreLanes(square, &to.square[i]);
-    StoreLanes(heading.cos * x + heading.sin * y, &to.x[i]);
-    StoreLanes(heading.cos * y - heading.sin * x, &to.y[i]);
+    StoreLanes(cos * x + sin * y, &to.x[i]);
+    StoreLanes(cos * y - sin * x, &to.y[i]);
   }
   count = behind;
 }

@@ -29,8 +29,8 @@ void DirectionBytes::Read(const NearBodies& discs, float steps_per_m, bool with_
     const IntLanes is_around = length <= radius * 1.01F;
     const FloatLanes tangent = SquareRoot(is_around ? Everywhere(1.0F) : square - radius * radius);
     const FloatLanes slope = radius / tangent;
-    const IntLanes begin = Truncated(TurnInBytes(x + slope * y, y - slope * x) - kAside);
-    const IntLanes end = Truncated(TurnInBytes(x - slope * y, y + slope * x) + kAside);
+    const IntLanes begin = Truncated(TurnInBytes(x + slope * y, y - slope * x, -kAside));
+    const IntLanes end = Truncated(TurnInBytes(x - slope * y, y + slope * x, kAside));
     const IntLanes width = is_around ? Everywhere(255) : LowestByte(end - begin);
     const auto in_steps = [](FloatLanes steps)
     { return Truncated(Minimum(Maximum(steps, FloatLanes{}), Everywhere(kFarthestByte))); };

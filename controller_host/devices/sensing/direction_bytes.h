@@ -15,13 +15,16 @@ namespace swarmanoid
 
 inline constexpr float kFarthestByte = 254;  // whatever is farther
 
-// Returns a direction, where 256 is a turn; the result is not wrapped. The point must not be near (0, 0).
-inline FloatLanes TurnInBytes(FloatLanes x, FloatLanes y)
+// Returns a direction, where 256 is a turn, and `aside` more; the result is not wrapped. The point must not be near
+// (0, 0).
+inline FloatLanes TurnInBytes(FloatLanes x, FloatLanes y, float aside = 0)
 {
-  const auto size = [](FloatLanes lanes)
-  { return reinterpret_cast<FloatLanes>(reinterpret_cast<IntLanes>(lanes) & 0x7fffffff); };
-  const FloatLanes turn = y / (size(x) + size(y));
-  return (x < 0 ? 6 - turn : 4 + turn) * 64;
+  constexpr int kAllButSign = 0x7fffffff;
+  const auto bits = [](FloatLanes lanes) { return reinterpret_cast<IntLanes>(lanes); };
+  const auto size = [&](FloatLanes lanes) { return reinterpret_cast<FloatLanes>(bits(lanes) & kAllButSign); };
+  // From the direction -y on. It runs the other way where x is negative.
+  const FloatLanes turn = y / (size(x) + size(y)) - 1;
+  return reinterpret_cast<FloatLanes>(bits(turn) ^ (bits(x) & ~kAllButSign)) * 64 + (320 + aside);
 }
 
 inline constexpr std::int32_t kMeetsNothing = 255 << 16;

@@ -38,19 +38,20 @@ inline void DiscCover::Cover(std::size_t first, int directions, std::uint8_t dis
 
 void DiscCover::Lay(const DirectionBytes& bytes, std::size_t count)
 {
-  behind_.fill(kUnknown);
-  // Fewer directions are not worth it.
+  for (std::size_t i = 0; i < behind_.size(); i += kByteLanes) StoreLanes(Everywhere(kUnknown), &behind_[i]);
+  // Fewer directions are not worth it. The masks find cylinders that surely hide so many, by their whole entries.
   constexpr int kEdge = 2, kFewest = 3;
+  constexpr int kWidth = 0xff00, kLeastWidth = (kFewest + 2 * kEdge - 1) << 8, kNotSure = kUnknown << 16;
   for (std::size_t i = 0; i < count; i += kLanes)
-  {
-    const IntLanes meets = LoadLanes(&bytes.meets[i]);
-    const IntLanes behind = ThirdByte(LoadLanes(&bytes.middles[i]));
-    const IntLanes directions = SecondByte(meets) - (2 * kEdge - 1);
-    const IntLanes first = LowestByte(meets) + kEdge;
-    ForEachBit(
-        LaneMask((directions >= kFewest) & (behind < int{kUnknown}) & FirstLanes(count - i)), [&](unsigned lane)
-        { Cover(static_cast<std::size_t>(first[lane]), directions[lane], static_cast<std::uint8_t>(behind[lane])); });
-  }
+    ForEachBit(LaneMask(((LoadLanes(&bytes.meets[i]) & kWidth) >= kLeastWidth) &
+                        (LoadLanes(&bytes.middles[i]) < kNotSure) & FirstLanes(count - i)),
+               [&](unsigned lane)
+               {
+                 const std::int32_t meets = bytes.meets[i + lane];
+                 const int directions = (meets >> 8 & 255) - (2 * kEdge - 1);
+                 Cover(static_cast<std::size_t>(meets & 255) + kEdge, directions,
+                       static_cast<std::uint8_t>(bytes.middles[i + lane] >> 16));
+               });
   for (std::size_t i = 0; i < kTurn; i += kByteLanes)
     StoreLanes(Minimum(LoadLanes(&behind_[i]), LoadLanes(&behind_[i + kTurn])), &behind_[i]);
   for (std::size_t i = 0; i < 2 * kByteLanes; i += kByteLanes) StoreLanes(LoadLanes(&behind_[i]), &behind_[i + kTurn]);

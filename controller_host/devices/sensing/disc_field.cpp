@@ -235,7 +235,7 @@ void DiscField::Close()
 }
 
 template <bool kMixedHeights>
-void DiscField::LookAtHandful(const SightPoints& points, SeenPoints& seen) const
+void DiscField::LookAtHandful(const PointView& points, SeenPoints& seen) const
 {
   for (std::size_t group = 0; group < points.count; group += kLanes)
   {
@@ -265,7 +265,7 @@ void DiscField::LookAtHandful(const SightPoints& points, SeenPoints& seen) const
 }
 
 template <bool kMixedHeights>
-void DiscField::LookAtMany(const SightPoints& points, SeenPoints& seen) const
+void DiscField::LookAtMany(const PointView& points, SeenPoints& seen) const
 {
   const Cells& cells = cells_;
   for (std::size_t group = 0; group < points.count; group += kLanes)
@@ -309,7 +309,7 @@ void DiscField::LookAtMany(const SightPoints& points, SeenPoints& seen) const
   }
 }
 
-void DiscField::Look(const SightPoints& points, SeenPoints& seen)
+void DiscField::Look(const PointView& points, SeenPoints& seen)
 {
   seen.Resize(points.count);
   const bool are_mixed = heights_ == Heights::kMixed;

@@ -20,15 +20,26 @@
 namespace swarmanoid
 {
 
-// Points to look at: offsets from the eye in m. ReusedMemory for kLanes more behind `count`.
+// Points to look at, wherever they are stored: offsets from the eye in m. kLanes more can be read behind `count`.
+struct PointView
+{
+  std::size_t count = 0;
+  const float* x = nullptr;
+  const float* y = nullptr;
+  const float* z = nullptr;
+  const std::int32_t* owner = nullptr;  // the entity that a point is part of: it does not hide its own points
+};
+
+// Memory for such points.
 struct SightPoints
 {
   std::size_t count = 0;
   std::vector<float> x, y, z;
-  std::vector<std::int32_t> owner;  // the entity that a point is part of: it does not hide its own points
+  std::vector<std::int32_t> owner;
 
   // Reserves ReusedMemory for `points` and kLanes more.
   void Reserve(std::size_t points);
+  operator PointView() const { return {count, x.data(), y.data(), z.data(), owner.data()}; }
 };
 
 // The set of visible points.
@@ -64,7 +75,7 @@ public:
   // moved by one height.
   void Sort(const NearBodies& discs, float eye, float lowest, float highest, float reach, bool at_themselves);
   // Finds the points that no cylinder hides. The heights of the points must be within those given to Sort.
-  void Look(const SightPoints& points, SeenPoints& seen);
+  void Look(const PointView& points, SeenPoints& seen);
 
 private:
   static constexpr std::size_t kQuadrants = 4;
@@ -106,7 +117,10 @@ private:
   {
     std::array<float, kByteLanes> x, y, first, last, slope, length;
     std::array<std::uint8_t, kByteLanes> turn, distance;
-    std::array<std::int32_t, kBlock * kByteLanes + kLanes> pairs;  // place of the cylinder, then of the line
+    // Of two cylinders each: the lines that may meet them, kByteLanes bits for each, and the first one.
+    std::array<std::uint64_t, kBlock / 2> meeting;
+    std::array<std::uint32_t, kBlock / 2> disc;
+    std::array<std::int32_t, kBlock * kByteLanes + kLanes> pairs;  // number of the cylinder, then of the line
     std::size_t count;
     IntLanes hidden;  // a bit for each line
   };
@@ -118,23 +132,40 @@ private:
     kEntities
   };
 
+  // Cylinders that may hide points: their direction bytes, and their places if these are not 0, 1 …
+  struct Candidates
+  {
+    std::size_t count;
+    const std::int32_t* meets;
+    const std::int32_t* place;
+  };
+  // What the cover leaves in half of the directions. Points have their places as owners.
+  struct Half
+  {
+    SightPoints left;
+    std::size_t count = 0;  // of cylinders
+    std::vector<std::int32_t> place, meets;
+
+    void Reserve(std::size_t places);
+  };
+
   void Classify(const NearBodies& discs, float eye, float lowest, float highest);
   void Measure(float eye, float lowest, float highest);
   void SortByQuadrants(const NearBodies& discs, float eye, float lowest, float highest);
   void SplitQuadrant(std::size_t quadrant);
   void Close();
-  Lines LinesTo(const SightPoints& points, std::size_t group) const;
-  void LookByBytes(const SightPoints& points, SeenPoints& seen);
-  void ThinOut(const SightPoints& points);
+  Lines LinesTo(const PointView& points, std::size_t group) const;
+  void LookByBytes(const PointView& points, SeenPoints& seen);
+  void ThinOut(const PointView& points);
   // Calls found(first, seen) with a bit for each of kByteLanes points.
   template <bool kMixedHeights, Owners kOwners, class Found>
-  void LookThrough(const SightPoints& points, Found&& found);
+  void LookThrough(const PointView& points, const Candidates& discs, Found&& found);
   template <bool kMixedHeights, Owners kOwners>
-  void TestPairs(const std::int32_t* owners);
+  void TestPairs(const std::int32_t* owners, const std::int32_t* places);
   template <bool kMixedHeights>
-  void LookAtHandful(const SightPoints& points, SeenPoints& seen) const;
+  void LookAtHandful(const PointView& points, SeenPoints& seen) const;
   template <bool kMixedHeights>
-  void LookAtMany(const SightPoints& points, SeenPoints& seen) const;
+  void LookAtMany(const PointView& points, SeenPoints& seen) const;
 
   Heights heights_ = Heights::kSpanning;
   float low_ = 0, high_ = 0;  // kEqual: of all, from the eye
@@ -152,12 +183,7 @@ private:
   std::size_t equal_count_ = 0;  // so many squares are equal
   Chunk chunk_;
   DiscCover cover_;
-  struct
-  {
-    std::size_t count = 0;
-    std::vector<std::int32_t> place, meets;
-  } before_;          // cylinders that the cover does not hide
-  SightPoints left_;  // points that it does not hide, with their places as owners
+  std::array<Half, 2> halves_;
 
   // The arrays for many cylinders.
   std::array<std::size_t, kQuadrants * kSectors> depth_{};  // places of each cell to test

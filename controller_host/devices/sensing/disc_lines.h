@@ -18,7 +18,7 @@ inline IntLanes Meets(FloatLanes circle_x, FloatLanes circle_y, FloatLanes squar
   return beside_x * beside_x + beside_y * beside_y <= square;
 }
 
-inline DiscField::Lines DiscField::LinesTo(const SightPoints& points, std::size_t group) const
+inline DiscField::Lines DiscField::LinesTo(const PointView& points, std::size_t group) const
 {
   FloatLanes x = LoadLanes(&points.x[group]);
   const FloatLanes y = LoadLanes(&points.y[group]);

@@ -25,7 +25,7 @@ constexpr auto kNotOwn = []
 }  // namespace
 
 template <bool kMixedHeights, DiscField::Owners kOwners>
-void DiscField::TestPairs(const std::int32_t* owners)
+void DiscField::TestPairs(const std::int32_t* owners, const std::int32_t* places)
 {
   Chunk& chunk = chunk_;
   StoreLanes(IntLanes{}, &chunk.pairs[chunk.count]);
@@ -34,7 +34,7 @@ void DiscField::TestPairs(const std::int32_t* owners)
     const IntLanes both = LoadLanes(&chunk.pairs[pair]);
     const IntLanes line = both & (kByteLanes - 1);
     IntLanes disc = both >> std::countr_zero(unsigned{kByteLanes});
-    if constexpr (kOwners == Owners::kPlaces) disc = Gathered(before_.place.data(), disc);
+    if constexpr (kOwners == Owners::kPlaces) disc = Gathered(places, disc);
     FloatLanes first = Gathered(chunk.first.data(), line);
     FloatLanes last = Gathered(chunk.last.data(), line);
     if constexpr (kMixedHeights)
@@ -57,13 +57,11 @@ void DiscField::TestPairs(const std::int32_t* owners)
 }
 
 template <bool kMixedHeights, DiscField::Owners kOwners, class Found>
-void DiscField::LookThrough(const SightPoints& points, Found&& found)
+void DiscField::LookThrough(const PointView& points, const Candidates& discs, Found&& found)
 {
   Chunk& chunk = chunk_;
-  const std::size_t discs = kOwners == Owners::kPlaces ? before_.count : discs_->count;
-  static_assert(std::endian::native == std::endian::little && kFew <= 2 * kOwnMiddle);
-  const auto* const bytes =
-      reinterpret_cast<const std::uint8_t*>(kOwners == Owners::kPlaces ? before_.meets.data() : bytes_.meets.data());
+  static_assert(std::endian::native == std::endian::little && kFew <= 2 * kOwnMiddle && kFew <= kBlock);
+  const auto* const bytes = reinterpret_cast<const std::uint8_t*>(discs.meets);
   for (std::size_t begin = 0; begin < points.count; begin += kByteLanes)
   {
     const std::size_t count = std::min<std::size_t>(kByteLanes, points.count - begin);
@@ -86,36 +84,45 @@ void DiscField::LookThrough(const SightPoints& points, Found&& found)
     const ByteLanes turn = LoadLanes(chunk.turn.data());
     const ByteLanes distance = LoadLanes(chunk.distance.data());
     const std::int32_t* const owners = &points.owner[begin];
-    const std::uint64_t* const not_own = &kNotOwn[kOwnMiddle - (kOwners == Owners::kSamePlaces ? begin / 2 : 0)];
     const auto meet = [&](const std::uint8_t* disc) -> std::uint64_t
     { return ByteMask((turn - Everywhere(disc[0]) <= Everywhere(disc[1])) & (distance >= Everywhere(disc[2]))); };
     chunk.hidden = IntLanes{};
-    for (std::size_t from = 0; from < discs; from += kBlock)
+    for (std::size_t from = 0; from < discs.count; from += kBlock)
     {
-      const std::size_t behind = std::min(from + kBlock, discs);
-      std::int32_t* pairs = chunk.pairs.data();
-      // Two cylinders are tested at a time. The entry after the last one meets nothing.
+      const std::size_t behind = std::min(from + kBlock, discs.count);
+      // Two cylinders are tested at a time. The entry after the last one meets nothing. Those that no line may meet are
+      // left out without a branch, which would be guessed wrong.
+      std::size_t some = 0;
+      const std::uint64_t* not_own = &kNotOwn[kOwnMiddle - (kOwners == Owners::kSamePlaces ? begin / 2 : 0)];
       for (std::size_t disc = from; disc < behind; disc += 2)
       {
         const std::uint8_t* const one = bytes + disc * sizeof(std::int32_t);
-        std::uint64_t mask = (meet(one) | meet(one + sizeof(std::int32_t)) << kByteLanes) & are_there;
-        if constexpr (kOwners == Owners::kSamePlaces) mask &= not_own[disc / 2];
-        const auto place = static_cast<std::int32_t>(disc * kByteLanes);
-        // The first two without a branch that would be guessed wrong.
-        const auto those = static_cast<std::size_t>(std::popcount(mask));
+        std::uint64_t meeting = (meet(one) | meet(one + sizeof(std::int32_t)) << kByteLanes) & are_there;
+        if constexpr (kOwners == Owners::kSamePlaces) meeting &= *not_own++;
+        chunk.meeting[some] = meeting;
+        chunk.disc[some] = static_cast<std::uint32_t>(disc);
+        some += meeting != 0 ? 1 : 0;
+      }
+      std::int32_t* pairs = chunk.pairs.data();
+      for (std::size_t two = 0; two < some; ++two)
+      {
+        std::uint64_t meeting = chunk.meeting[two];
+        const auto first = static_cast<std::int32_t>(chunk.disc[two] * kByteLanes);
+        const auto those = static_cast<std::size_t>(std::popcount(meeting));
+        // The first two again without a branch.
         constexpr std::uint64_t kSome = std::uint64_t{1} << 63;
-        pairs[0] = place + std::countr_zero(mask | kSome);
-        mask &= mask - 1;
-        pairs[1] = place + std::countr_zero(mask | kSome);
+        pairs[0] = first + std::countr_zero(meeting);
+        meeting &= meeting - 1;
+        pairs[1] = first + std::countr_zero(meeting | kSome);
         for (std::size_t k = 2; k < those; ++k)
         {
-          mask &= mask - 1;
-          pairs[k] = place + std::countr_zero(mask);
+          meeting &= meeting - 1;
+          pairs[k] = first + std::countr_zero(meeting);
         }
         pairs += those;
       }
       chunk.count = static_cast<std::size_t>(pairs - chunk.pairs.data());
-      TestPairs<kMixedHeights, kOwners>(owners);
+      TestPairs<kMixedHeights, kOwners>(owners, discs.place);
     }
     std::uint32_t hidden = 0;
     for (int lane = 0; lane < kLanes; ++lane) hidden |= static_cast<std::uint32_t>(chunk.hidden[lane]);
@@ -123,51 +130,85 @@ void DiscField::LookThrough(const SightPoints& points, Found&& found)
   }
 }
 
-void DiscField::ThinOut(const SightPoints& points)
+void DiscField::Half::Reserve(std::size_t places)
 {
-  cover_.Lay(bytes_, points.count);
-  left_.count = before_.count = 0;
-  if (left_.x.size() < points.count + 2 * kLanes) left_.Reserve(2 * points.count + 2 * kLanes);
-  for (std::vector<std::int32_t>* values : {&before_.place, &before_.meets}) values->resize(left_.x.size());
-  for (std::size_t i = 0; i < points.count; i += kLanes)
-  {
-    const IntLanes are_there = FirstLanes(points.count - i);
-    const IntLanes places = static_cast<int>(i) + LaneNumbers();
-    const Selection left(LaneMask(are_there & ~cover_.HidesMiddles(LoadLanes(&bytes_.middles[i]))));
-    left.Store(LoadLanes(&points.x[i]), &left_.x[left_.count]);
-    left.Store(LoadLanes(&points.y[i]), &left_.y[left_.count]);
-    left.Store(places, &left_.owner[left_.count]);
-    left_.count += left.Count();
-    const IntLanes meets = LoadLanes(&bytes_.meets[i]);
-    const Selection before(LaneMask(are_there & ~cover_.HidesAll(meets)));
-    before.Store(places, &before_.place[before_.count]);
-    before.Store(meets, &before_.meets[before_.count]);
-    before_.count += before.Count();
-  }
-  before_.meets[before_.count] = kMeetsNothing;
+  if (place.size() >= places + kLanes) return;
+  left.Reserve(2 * places);
+  for (std::vector<std::int32_t>* values : {&place, &meets}) values->resize(2 * places + kLanes);
 }
 
-void DiscField::LookByBytes(const SightPoints& points, SeenPoints& seen)
+// Keeps the points and the cylinders that the cover does not hide, in the half of the directions in which they are.
+// Cylinders at the borders are in both.
+void DiscField::ThinOut(const PointView& points)
+{
+  constexpr int kHalfTurn = 128;
+  cover_.Lay(bytes_, points.count);
+  for (Half& half : halves_) half.Reserve(points.count);
+  std::size_t left_counts[2] = {}, counts[2] = {};
+  for (std::size_t i = 0; i < points.count; i += kLanes)
+  {
+    const FloatLanes x = LoadLanes(points.x + i);
+    const FloatLanes y = LoadLanes(points.y + i);
+    const IntLanes middles = LoadLanes(&bytes_.middles[i]);
+    const IntLanes meets = LoadLanes(&bytes_.meets[i]);
+    const IntLanes places = static_cast<int>(i) + LaneNumbers();
+    const IntLanes are_there = FirstLanes(points.count - i);
+    const IntLanes are_left = are_there & ~cover_.HidesMiddles(middles);
+    const IntLanes in_second = LowestByte(middles) >= kHalfTurn;
+    const IntLanes are_before = are_there & ~cover_.HidesAll(meets);
+    const IntLanes first = LowestByte(meets);
+    const IntLanes last = first + SecondByte(meets);
+    const IntLanes points_in[2] = {are_left & ~in_second, are_left & in_second};
+    const IntLanes discs_in[2] = {are_before & ((first < kHalfTurn) | (last >= 2 * kHalfTurn)),
+                                  are_before & (last >= kHalfTurn)};
+    for (std::size_t h = 0; h < 2; ++h)
+    {
+      Half& half = halves_[h];
+      const Selection left(LaneMask(points_in[h]));
+      left.Store(x, half.left.x.data() + left_counts[h]);
+      left.Store(y, half.left.y.data() + left_counts[h]);
+      left.Store(places, half.left.owner.data() + left_counts[h]);
+      left_counts[h] += left.Count();
+      const Selection before(LaneMask(discs_in[h]));
+      before.Store(places, half.place.data() + counts[h]);
+      before.Store(meets, half.meets.data() + counts[h]);
+      counts[h] += before.Count();
+    }
+  }
+  for (std::size_t h = 0; h < 2; ++h)
+  {
+    halves_[h].left.count = left_counts[h];
+    halves_[h].count = counts[h];
+    halves_[h].meets[counts[h]] = kMeetsNothing;
+  }
+}
+
+void DiscField::LookByBytes(const PointView& points, SeenPoints& seen)
 {
   const bool are_mixed = heights_ == Heights::kMixed;
+  if (is_crowd_)
+  {
+    ThinOut(points);
+    seen.HideAll();
+    for (const Half& half : halves_)
+      LookThrough<false, Owners::kPlaces>(
+          half.left, {half.count, half.meets.data(), half.place.data()},
+          [&](std::size_t first, std::uint32_t those) {
+            ForEachBit(those, [&](unsigned bit) { seen.Show(static_cast<std::size_t>(half.left.owner[first + bit])); });
+          });
+    return;
+  }
+  const Candidates all{discs_->count, bytes_.meets.data(), nullptr};
   const auto take = [&](std::size_t first, std::uint32_t those)
   {
     for (std::size_t i = first; i < std::min<std::size_t>(first + kByteLanes, points.count); i += kLanes)
       seen.SetGroup(i, those >> (i - first) & ((1U << kLanes) - 1));
   };
-  if (is_crowd_)
-  {
-    ThinOut(points);
-    seen.HideAll();
-    return LookThrough<false, Owners::kPlaces>(
-        left_, [&](std::size_t first, std::uint32_t those)
-        { ForEachBit(those, [&](unsigned bit) { seen.Show(static_cast<std::size_t>(left_.owner[first + bit])); }); });
-  }
   if (at_themselves_)
-    return are_mixed ? LookThrough<true, Owners::kSamePlaces>(points, take)
-                     : LookThrough<false, Owners::kSamePlaces>(points, take);
-  return are_mixed ? LookThrough<true, Owners::kEntities>(points, take)
-                   : LookThrough<false, Owners::kEntities>(points, take);
+    return are_mixed ? LookThrough<true, Owners::kSamePlaces>(points, all, take)
+                     : LookThrough<false, Owners::kSamePlaces>(points, all, take);
+  return are_mixed ? LookThrough<true, Owners::kEntities>(points, all, take)
+                   : LookThrough<false, Owners::kEntities>(points, all, take);
 }
 
 }  // namespace swarmanoid

@@ -108,6 +108,7 @@ NeighbourGrid::NeighbourGrid(const CSwarmanoidSpace& space, const BodyShapes& sh
 
 void NeighbourGrid::Rebuild(WorkerPool* pool)
 {
+  ++rebuilds_;
   sorted_from_ = bodies_;
   if (!space_.Absent().empty())
   {
@@ -283,6 +284,8 @@ std::size_t NeighbourGrid::Collect(double x, double y, double reach, std::uint32
   const auto fy = static_cast<float>(y);
   const float own = static_cast<float>(reach) + margin_;
   const IntLanes left_out_lanes = Everywhere(static_cast<int>(left_out));
+  const float cut_of_all = radius_[0] + own;
+  const FloatLanes square_of_all = Everywhere(cut_of_all * cut_of_all);
   // These local copies are needed because the compiler must assume that stores of lanes change any member.
   const float* const body_x = x_.data();
   const float* const body_y = y_.data();
@@ -307,11 +310,12 @@ std::size_t NeighbourGrid::Collect(double x, double y, double reach, std::uint32
                     {
                       const FloatLanes dx = LoadLanes(body_x + i) - fx;
                       const FloatLanes dy = LoadLanes(body_y + i) - fy;
-                      const FloatLanes radius = kAlike ? Everywhere(body_radius[0]) : LoadLanes(body_radius + i);
+                      const FloatLanes radius = kAlike ? FloatLanes{} : LoadLanes(body_radius + i);
                       const FloatLanes cut = radius + own;
+                      const FloatLanes square = kAlike ? square_of_all : cut * cut;
                       const IntLanes entity = LoadLanes(body_entity + i);
-                      const Selection selection(LaneMask((dx * dx + dy * dy <= cut * cut) &
-                                                         ~(entity == left_out_lanes) & FirstLanes(behind - i)));
+                      const Selection selection(LaneMask((dx * dx + dy * dy <= square) & ~(entity == left_out_lanes) &
+                                                         FirstLanes(behind - i)));
                       selection.Store(Differences(origin_x + i, x), near_x + count);
                       selection.Store(Differences(origin_y + i, y), near_y + count);
                       selection.Store(entity, near_entity + count);

@@ -72,6 +72,9 @@ public:
   // sensed. The threads of `pool`, if it is given, share the work.
   void Rebuild(WorkerPool* pool = nullptr);
 
+  // Returns how often Rebuild was called.
+  std::uint64_t Rebuilds() const { return rebuilds_; }
+
   // Returns the bodies that may be sorted: the movable entities with a body, ascending.
   std::span<const std::uint32_t> Bodies() const { return bodies_; }
   // Returns the movable bodies in the order of their cells: entity indices.
@@ -154,6 +157,7 @@ private:
   std::vector<std::uint32_t> bodies_;  // movable entities with a body, ascending
   std::vector<std::uint32_t> here_;    // the bodies in the arena, if some are outside
   std::size_t count_ = 0;
+  std::uint64_t rebuilds_ = 0;
   float margin_ = 0;          // covers the rounding to single precision
   float largest_radius_ = 0;  // of this tick
   bool all_upright_ = true;

@@ -15,6 +15,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include "common/space/space.h"
 
 namespace swarmanoid
@@ -150,6 +151,14 @@ void FixedShadows::Place(const SensorWorld& world, const Vector3& source)
   for (std::uint32_t entity = 0; entity < space.Size(); ++entity)
     if (!space.GetEntity(entity).IsMovable() && world.Body(entity).kind != Shape::Kind::kNone) Add(world, entity);
   for (std::vector<Body>& bodies : bodies_) std::ranges::stable_sort(bodies, {}, &Body::near);
+  nearest_.clear();
+  for (const std::vector<Body>& bodies : bodies_)
+    nearest_.push_back(bodies.empty() ? std::numeric_limits<float>::infinity() : bodies.front().near);
+}
+
+IntLanes FixedShadows::MayHide(IntLanes sector, FloatLanes length) const
+{
+  return Gathered(nearest_.data(), sector) <= length + MarginAt(length);
 }
 
 void FixedShadows::Add(const SensorWorld& world, std::uint32_t entity)
@@ -278,10 +287,13 @@ void MovingShadows::Sort(const Vector3& source, double reach)
   constexpr std::size_t kBodies = 8, kFewest = 8, kMost = 4096;
   sectors_ = Sectors(std::clamp(std::bit_ceil(count / kBodies + 1), kFewest, kMost));
   rings_per_m_ = kRings / std::max(1e-3F, std::min(__builtin_sqrtf(Highest(farthest)), reach_));
-  cells_.clear();
-  members_.clear();
+  std::size_t listed = 0;
   for (std::size_t group = 0; group < count; group += kLanes)
   {
+    const std::size_t most = listed + kLanes * sectors_.Count();
+    if (members_.size() < most) members_.resize(2 * most);
+    std::uint32_t* const cells = sort_.Cells(members_.size()).data();
+    std::uint32_t* const members = members_.data();
     const FloatLanes x = LoadLanes(&body_x_[group]);
     const FloatLanes y = LoadLanes(&body_y_[group]);
     const FloatLanes square = x * x + y * y;
@@ -302,16 +314,15 @@ void MovingShadows::Sort(const Vector3& source, double reach)
                {
                  for (int sector = first[lane]; sector <= last[lane]; ++sector)
                  {
-                   cells_.push_back(static_cast<std::uint32_t>(sectors_.Wrapped(sector)) * kRings +
-                                    static_cast<std::uint32_t>(ring[lane]));
-                   members_.push_back(static_cast<std::uint32_t>(group + lane));
+                   cells[listed] = static_cast<std::uint32_t>((sector & sectors_.Last()) * kRings + ring[lane]);
+                   members[listed++] = static_cast<std::uint32_t>(group + lane);
                  }
                });
   }
   sort_.SetCells(sectors_.Count() * kRings);
-  std::ranges::copy(cells_, sort_.Cells(cells_.size()).begin());
-  for (std::vector<float>* values : {&x_, &y_, &radius_}) values->resize(cells_.size() + kLanes);
-  entity_.resize(cells_.size() + kLanes);
+  sort_.Cells(listed);
+  for (std::vector<float>* values : {&x_, &y_, &radius_}) values->resize(listed + kLanes);
+  entity_.resize(listed + kLanes);
   sort_.Sort(
       [&](std::size_t member, std::uint32_t place)
       {
@@ -362,31 +373,38 @@ inline MovingShadows::Lines MovingShadows::LinesTo(const SightedPoints& points, 
 
 void MovingShadows::Look(const SightedPoints& points, const FixedShadows& fixed, std::vector<std::uint32_t>& seen) const
 {
+  const bool is_flat = world_.Terrain().IsEmpty();
+  const auto is_behind_terrain = [&](std::size_t i)
+  {
+    const auto hides = [&](std::uint32_t terrain) { return world_.CanHideFrom(points.robot[i], terrain); };
+    return world_.Terrain().FirstHit(points.At(i), source_, hides) <= 1;
+  };
   for (std::size_t group = 0; group < points.count; group += kLanes)
   {
     const FloatLanes x = Differences(&points.x[group], source_.x());
     const FloatLanes y = Differences(&points.y[group], source_.y());
     const FloatLanes length = SquareRoot(x * x + y * y);
     const FloatLanes turn = Sectors::TurnOf(x, y);
-    const IntLanes fixed_sector = fixed.Directions().Of(turn);
+    const IntLanes fixed_sector = fixed.Directions().Of(turn) & fixed.Directions().Last();
+    const unsigned near_fixed = LaneMask(fixed.MayHide(fixed_sector, length));
     const Lines lines = LinesTo(points, group, x, y, length, sectors_.Of(turn) & sectors_.Last());
-    ForEachBit(LaneMask((length <= reach_) & FirstLanes(points.count - group)),
-               [&](unsigned lane)
-               {
-                 const std::size_t i = group + lane;
-                 const std::uint32_t robot = points.robot[i];
-                 const Vector3 point(points.x[i], points.y[i], points.z[i]);
-                 if (IsHidden(robot, point, lines, lane) ||
-                     fixed.Hide(world_, robot, point, fixed.Directions().Wrapped(fixed_sector[lane]), length[lane]))
-                   return;
-                 const auto hides = [&](std::uint32_t terrain) { return world_.CanHideFrom(robot, terrain); };
-                 if (!world_.Terrain().IsEmpty() && world_.Terrain().FirstHit(point, source_, hides) <= 1) return;
-                 seen.push_back(static_cast<std::uint32_t>(i));
-               });
+    ForEachBit(
+        LaneMask((length <= reach_) & FirstLanes(points.count - group)),
+        [&](unsigned lane)
+        {
+          const std::size_t i = group + lane;
+          if (IsHidden(points, i, lines, lane)) return;
+          if ((near_fixed >> lane & 1U) != 0 && fixed.Hide(world_, points.robot[i], points.At(i),
+                                                           static_cast<std::size_t>(fixed_sector[lane]), length[lane]))
+            return;
+          if (!is_flat && is_behind_terrain(i)) return;
+          seen.push_back(static_cast<std::uint32_t>(i));
+        });
   }
 }
 
-inline bool MovingShadows::IsHidden(std::uint32_t robot, const Vector3& point, const Lines& lines, unsigned lane) const
+inline bool MovingShadows::IsHidden(const SightedPoints& points, std::size_t point, const Lines& lines,
+                                    unsigned lane) const
 {
   std::size_t begin = 0, end = 0;
   if (!are_few_)
@@ -397,6 +415,7 @@ inline bool MovingShadows::IsHidden(std::uint32_t robot, const Vector3& point, c
   }
   else if (lines.first[lane] <= lines.last[lane])
     end = entity_.size() - kLanes;
+  const std::uint32_t robot = points.robot[point];
   const FloatLanes way_x = Everywhere(lines.way_x[lane]);
   const FloatLanes way_y = Everywhere(lines.way_y[lane]);
   const FloatLanes margin = Everywhere(lines.margin[lane]);
@@ -425,16 +444,21 @@ inline bool MovingShadows::IsHidden(std::uint32_t robot, const Vector3& point, c
       const FloatLanes square = square_beside(surely_first, surely_last);
       if ((LaneMask((square < inner * inner) & (inner > 0)) & others) != 0) return true;
     }
-    bool is_hidden = false;
-    ForEachBit(others,
-               [&](unsigned other)
-               {
-                 const auto body = static_cast<std::uint32_t>(entity_[i + other]);
-                 is_hidden |= world_.CanHideFrom(robot, body) && world_.HitOn(body, point, source_).has_value();
-               });
-    if (is_hidden) return true;
+    if (HidesExactly(others, i, robot, points.At(point))) return true;
   }
   return false;
+}
+
+bool MovingShadows::HidesExactly(unsigned bodies, std::size_t first, std::uint32_t robot, const Vector3& point) const
+{
+  bool hides = false;
+  ForEachBit(bodies,
+             [&](unsigned bit)
+             {
+               const auto body = static_cast<std::uint32_t>(entity_[first + bit]);
+               hides |= world_.CanHideFrom(robot, body) && world_.HitOn(body, point, source_).has_value();
+             });
+  return hides;
 }
 
 }  // namespace swarmanoid

@@ -43,6 +43,7 @@ struct SightedPoints
   std::vector<std::uint32_t> robot;
 
   void Reserve(std::size_t points);
+  Vector3 At(std::size_t point) const { return {x[point], y[point], z[point]}; }
 };
 
 // The bodies that never move, around one source.
@@ -50,6 +51,9 @@ class FixedShadows
 {
 public:
   void Place(const SensorWorld& world, const Vector3& source);
+  // Returns for kLanes lines, by their sectors and lengths in the xy plane, whether a body is near enough to hide the
+  // source. Only then Hide must be asked.
+  IntLanes MayHide(IntLanes sector, FloatLanes length) const;
   // Returns whether one of them hides the source from a point of `robot`, which is `length` m away in the xy plane.
   bool Hide(const SensorWorld& world, std::uint32_t robot, const Vector3& point, std::size_t sector,
             float length) const;
@@ -67,6 +71,7 @@ private:
   Sectors sectors_{256};
   Vector3 source_ = Vector3::Constant(1e300);
   std::vector<std::vector<Body>> bodies_;  // by sector, the nearest first
+  std::vector<float> nearest_;             // m, from the source to the first body of each sector
 };
 
 class MovingShadows
@@ -97,7 +102,9 @@ private:
 
   Lines LinesTo(const SightedPoints& points, std::size_t group, FloatLanes x, FloatLanes y, FloatLanes length,
                 IntLanes sector) const;
-  bool IsHidden(std::uint32_t robot, const Vector3& point, const Lines& lines, unsigned lane) const;
+  bool IsHidden(const SightedPoints& points, std::size_t point, const Lines& lines, unsigned lane) const;
+  // Returns whether one of the bodies at the places `first` + each bit of a mask hides the source, by the exact test.
+  bool HidesExactly(unsigned bodies, std::size_t first, std::uint32_t robot, const Vector3& point) const;
   IntLanes RingOf(FloatLanes distance) const;
   // Lists the bodies in the order of the grid, all for each line.
   void ListAll(std::span<const std::uint32_t> bodies);
@@ -114,7 +121,7 @@ private:
   float rings_per_m_ = 0;
   // Values by body, then by place in the order of the cells. A sector has kRings cells.
   std::vector<float> body_x_, body_y_, body_radius_;
-  std::vector<std::uint32_t> cells_, members_;
+  std::vector<std::uint32_t> members_;  // the body of each entry in the cells
   CellSort sort_;
   std::vector<float> x_, y_, radius_;  // m, from the source
   std::vector<std::int32_t> entity_;

@@ -57,35 +57,35 @@ Vector3 SightLines::InFrontOf(const Vector3& spot)
 
 void SightLines::LookAtBodiesAround()
 {
-  if (near_.count + kLanes > points_.x.size()) points_.Reserve(2 * near_.count);
-  for (std::size_t i = 0; i < near_.count; i += kLanes)
-  {
-    StoreLanes(LoadLanes(&near_.x[i]), &points_.x[i]);
-    StoreLanes(LoadLanes(&near_.y[i]), &points_.y[i]);
-    StoreLanes(FloatLanes{}, &points_.z[i]);
-    StoreLanes(LoadLanes(&near_.entity[i]), &points_.owner[i]);
-  }
-  points_.count = near_.count;
   are_origins_ = true;
-  if (world_.Grid().AllLevel()) return;
+  shown_ = {near_.count, near_.x.data(), near_.y.data(), nullptr, near_.entity.data()};
+  if (world_.Grid().AllLevel())
+  {
+    if (near_.count + kLanes > same_level_.size()) same_level_.resize(2 * near_.count + kLanes, 0);
+    shown_.z = same_level_.data();
+    return;
+  }
+  if (near_.count + kLanes > points_.z.size()) points_.Reserve(2 * near_.count);
   const double* const z = world_.Grid().OriginZ();
   const double own = world_.Space().Poses().z[observer_];
   for (std::size_t i = 0; i < near_.count; ++i)
     points_.z[i] = static_cast<float>(z[static_cast<std::size_t>(near_.place[i])] - own);
+  shown_.z = points_.z.data();
 }
 
 const SeenPoints& SightLines::Solve()
 {
-  seen_.Resize(points_.count);
-  if (points_.count == 0) return seen_;
+  if (!are_origins_) shown_ = points_;
+  seen_.Resize(shown_.count);
+  if (shown_.count == 0) return seen_;
   CollectBodies();
-  field_.Look(points_, seen_);
+  field_.Look(shown_, seen_);
   for (const Box& box : boxes_) HideBehindBox(box);
   if (!tilted_.empty() || !foreign_.empty())
-    for (std::size_t i = 0; i < points_.count; ++i)
+    for (std::size_t i = 0; i < shown_.count; ++i)
       if (seen_[i] && HiddenByOthers(i)) seen_.Hide(i);
   if (!world_.Terrain().IsEmpty())
-    for (std::size_t i = 0; i < points_.count; ++i)
+    for (std::size_t i = 0; i < shown_.count; ++i)
       if (seen_[i] && HiddenByTerrain(i)) seen_.Hide(i);
   return seen_;
 }
@@ -95,9 +95,9 @@ void SightLines::FindHeights()
   lowest_ = highest_ = 0;
   if (are_origins_ && world_.Grid().AllLevel()) return;
   FloatLanes lowest{}, highest{};
-  for (std::size_t i = 0; i < points_.count; i += kLanes)
+  for (std::size_t i = 0; i < shown_.count; i += kLanes)
   {
-    const FloatLanes z = FirstLanes(points_.count - i) ? LoadLanes(&points_.z[i]) : FloatLanes{};
+    const FloatLanes z = FirstLanes(shown_.count - i) ? LoadLanes(&shown_.z[i]) : FloatLanes{};
     lowest = Minimum(lowest, z);
     highest = Maximum(highest, z);
   }
@@ -105,15 +105,33 @@ void SightLines::FindHeights()
   highest_ = Highest(highest);
 }
 
+// Takes the bounds of all bodies in the grid, which are found once a tick, as far as the eye reaches.
+void SightLines::FindOutlineOfOrigins()
+{
+  const NeighbourGrid& grid = world_.Grid();
+  if (origins_.rebuilds != grid.Rebuilds())
+  {
+    const std::size_t count = grid.Sorted().size();
+    const auto [left, right] = std::ranges::minmax(std::span(grid.OriginX(), count));
+    const auto [back, front] = std::ranges::minmax(std::span(grid.OriginY(), count));
+    origins_ = {grid.Rebuilds(), left, right, back, front};
+  }
+  left_ = static_cast<float>(std::clamp(origins_.left - eye_.x(), -reach_, 0.0));
+  right_ = static_cast<float>(std::clamp(origins_.right - eye_.x(), 0.0, reach_));
+  back_ = static_cast<float>(std::clamp(origins_.back - eye_.y(), -reach_, 0.0));
+  front_ = static_cast<float>(std::clamp(origins_.front - eye_.y(), 0.0, reach_));
+}
+
 void SightLines::FindOutline()
 {
   has_outline_ = true;
+  if (are_origins_) return FindOutlineOfOrigins();
   FloatLanes left{}, right{}, back{}, front{};
-  for (std::size_t i = 0; i < points_.count; i += kLanes)
+  for (std::size_t i = 0; i < shown_.count; i += kLanes)
   {
-    const IntLanes are_there = FirstLanes(points_.count - i);
-    const FloatLanes x = are_there ? LoadLanes(&points_.x[i]) : FloatLanes{};
-    const FloatLanes y = are_there ? LoadLanes(&points_.y[i]) : FloatLanes{};
+    const IntLanes are_there = FirstLanes(shown_.count - i);
+    const FloatLanes x = are_there ? LoadLanes(&shown_.x[i]) : FloatLanes{};
+    const FloatLanes y = are_there ? LoadLanes(&shown_.y[i]) : FloatLanes{};
     left = Minimum(left, x);
     right = Maximum(right, x);
     back = Minimum(back, y);
@@ -227,27 +245,30 @@ void SightLines::AddBox(std::uint32_t body)
   box.normal_y = side * (along_x ? sine : cosine);
   const float outside = std::max(outside_x, outside_y);
   box.distance = outside > 0 ? outside * 0.9999F - 1e-5F : -std::numeric_limits<float>::infinity();
-  boxes_.push_back(box);
+  // No point is farther towards the box than this corner of the outline.
+  const float farthest =
+      std::max(left_ * box.normal_x, right_ * box.normal_x) + std::max(back_ * box.normal_y, front_ * box.normal_y);
+  if (farthest >= box.distance) boxes_.push_back(box);
 }
 
 void SightLines::HideBehindBox(const Box& box)
 {
   const auto cosine = static_cast<float>(box.heading.cos);
   const auto sine = static_cast<float>(box.heading.sin);
-  for (std::size_t group = 0; group < points_.count; group += kLanes)
+  for (std::size_t group = 0; group < shown_.count; group += kLanes)
   {
-    const FloatLanes toward = LoadLanes(&points_.x[group]) * box.normal_x + LoadLanes(&points_.y[group]) * box.normal_y;
+    const FloatLanes toward = LoadLanes(&shown_.x[group]) * box.normal_x + LoadLanes(&shown_.y[group]) * box.normal_y;
     ForEachBit(LaneMask(toward >= box.distance) & seen_.Group(group),
                [&](unsigned bit)
                {
                  const std::size_t i = group + bit;
-                 if (points_.owner[i] == box.entity) return;
-                 const float x = points_.x[i];
-                 const float y = points_.y[i];
+                 if (shown_.owner[i] == box.entity) return;
+                 const float x = shown_.x[i];
+                 const float y = shown_.y[i];
                  float enter = 0, leave = 1;
                  ClipSlab(box.x, cosine * x + sine * y, -box.half_x, box.half_x, enter, leave);
                  ClipSlab(box.y, cosine * y - sine * x, -box.half_y, box.half_y, enter, leave);
-                 ClipSlab(0, points_.z[i], box.low, box.high, enter, leave);
+                 ClipSlab(0, shown_.z[i], box.low, box.high, enter, leave);
                  if (enter <= leave) seen_.Hide(i);
                });
   }
@@ -255,8 +276,8 @@ void SightLines::HideBehindBox(const Box& box)
 
 bool SightLines::HiddenByOthers(std::size_t point) const
 {
-  const auto owner = static_cast<std::uint32_t>(points_.owner[point]);
-  const Vector3 target = eye_ + Vector3(points_.x[point], points_.y[point], points_.z[point]);
+  const auto owner = static_cast<std::uint32_t>(shown_.owner[point]);
+  const Vector3 target = eye_ + Vector3(shown_.x[point], shown_.y[point], shown_.z[point]);
   const auto hides = [&](std::uint32_t body) { return body != owner && world_.HitOn(body, eye_, target).has_value(); };
   for (const std::uint32_t body : tilted_)
     if (hides(body)) return true;
@@ -267,8 +288,8 @@ bool SightLines::HiddenByOthers(std::size_t point) const
 
 bool SightLines::HiddenByTerrain(std::size_t point) const
 {
-  const auto owner = static_cast<std::uint32_t>(points_.owner[point]);
-  const Vector3 way(points_.x[point], points_.y[point], points_.z[point]);
+  const auto owner = static_cast<std::uint32_t>(shown_.owner[point]);
+  const Vector3 way(shown_.x[point], shown_.y[point], shown_.z[point]);
   const auto hides = [&](std::uint32_t terrain)
   {
     return world_.CanHideFrom(observer_, terrain) ||

@@ -43,7 +43,7 @@ public:
   static Vector3 InFrontOf(const Vector3& spot);
   // Adds one point on each movable body around the eye, in the order of PlacesAround(), instead of AddPoint. The points
   // are at the origins, moved by the height of the eye above the observer's origin. The world must have no tilted
-  // bodies.
+  // bodies. Boxes may not hide the points that are farther than the reach.
   void LookAtBodiesAround();
   // Gives access for callers that put many points at once.
   SightPoints& Points() { return points_; }
@@ -64,6 +64,7 @@ private:
 
   void FindHeights();
   void FindOutline();
+  void FindOutlineOfOrigins();
   void CollectBodies();
   bool IsOutside(std::size_t near);
   void AddBody(std::uint32_t body, bool upright);
@@ -81,15 +82,22 @@ private:
   double reach_ = 0;
   NearBodies near_;
   SightPoints points_;
-  bool are_origins_ = false;  // the points are those of LookAtBodiesAround
+  bool are_origins_ = false;       // the points are those of LookAtBodiesAround
+  std::vector<float> same_level_;  // zeros
+  PointView shown_;                // the points that Solve looks at
   SeenPoints seen_;
 
   NearBodies discs_;  // upright cylinders that hide things from the observer, if not all that are near do
   DiscField field_;
-  // The bounds of the points and the eye.
+  // The bounds of the points and the eye, or wider.
   float lowest_ = 0, highest_ = 0;
   bool has_outline_ = false;
   float left_ = 0, right_ = 0, back_ = 0, front_ = 0;
+  struct
+  {
+    std::uint64_t rebuilds = 0;  // of the grid
+    double left, right, back, front;
+  } origins_;  // the bounds of the origins of all movable bodies, m
   std::vector<Box> boxes_;
   std::vector<std::uint32_t> tilted_;   // tested one by one
   std::vector<std::uint32_t> foreign_;  // hide only what shares an engine with them, tested one by one

@@ -139,8 +139,12 @@ TEST(LightSensor, ReadingsAreThoseOfTheFormula)
     for (int tick = 0; tick < 3; ++tick)
     {
       for (std::uint32_t robot = 0; robot < 200; ++robot)
-        space.SetPose(robot,
-                      {{random.Uniform(0, 20), random.Uniform(0, 20), 0}, QuaternionFromYaw(random.Uniform(-3, 3))});
+      {
+        // Some lean, but not in the first tick.
+        const double lean = tick > 0 && robot % 3 == 0 ? random.Uniform(-0.5, 0.5) : 0;
+        space.SetPose(robot, {{random.Uniform(0, 20), random.Uniform(0, 20), 0},
+                              QuaternionFromEuler({lean, -lean / 2, random.Uniform(-3, 3)})});
+      }
       bodies.Refresh();
       sensor.batch->Update({});
       for (std::uint32_t robot = 0; robot < 200; ++robot)
@@ -172,6 +176,39 @@ TEST(LightSensor, ReadingsAreThoseOfTheFormula)
     }
   }
   EXPECT_GT(left_out, 100);
+}
+
+// Every bit, at the directions where sensors begin and cease to see a bulb and where angles wrap, and next to them.
+TEST(LightSensor, EachSensorIsLitByItsAngleToTheBulb)
+{
+  TestWorld world;
+  world.AddFootbot(5, 5);
+  const auto bulb = world.Add(EntityKind::kLightBulb, {6, 5, 1}, 0, {0, 0, 0}, false, -1);
+  CSwarmanoidSpace& space = world.Space();
+  TestSensor sensor(world, "footbot_light", "generic_footbot_light", {0});
+  const double intensity = space.Attributes()[space.GetEntity(bulb).SlotOf("intensity")];
+  RandomStream random(8, 1, 1, 1);
+  for (int n = -96; n < 3000; ++n)
+  {
+    const double direction = n <= 96 ? n * kPi / 96 : random.Uniform(-kPi, kPi);
+    for (int near = -3; near <= 3; ++near)
+    {
+      const SinCos way = SinCosOf(direction);
+      const Vector3 source(5 + 40 * way.cos, 5 + 40 * way.sin + near * 1e-14, 1);
+      space.SetPose(bulb, {source, Quaternion::Identity()});
+      sensor.Update();
+      const auto readings = sensor.Of<CCI_FootBotLightSensor>(0).GetAllSensorReadings();
+      const Vector3 to_bulb = source - Vector3(5, 5, CCI_FootBotLightSensor::RING_HEIGHT_M);
+      const double bearing = Atan2(to_bulb.y(), to_bulb.x());
+      const double brightness = intensity * intensity / to_bulb.squaredNorm();
+      for (unsigned s = 0; s < readings.size(); ++s)
+      {
+        const double off = std::abs(WrapAngle(CCI_FootBotLightSensor::AngleOf(s) - bearing));
+        ASSERT_EQ(readings[s], brightness * std::max(1 - off / (kPi / 2), 0.0))
+            << "sensor " << s << " of " << direction;
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -176,6 +176,33 @@ TEST(SightLines, BodiesAroundAgreeWithBruteForce)
   EXPECT_GT(seen, 3000);
 }
 
+// Walls beyond all bodies are left out, by bounds that are found once a tick.
+TEST(SightLines, AWallHidesABodyThatJumpsBehindIt)
+{
+  TestWorld world;
+  const auto observer = world.AddFootbot(5, 5);
+  const auto other = world.AddFootbot(4.5, 5);
+  world.AddBlock({6, 5, 0.5}, {0.1, 4, 1});
+  world.AddBlock({5, 6, 0.5}, {4, 0.1, 1}, 0.1);
+  SensorWorld sensor_world(world.Space());
+  SightLines lines(sensor_world, 3);
+  const auto is_seen_at = [&](double x, double y)
+  {
+    world.Space().SetPose(other, {{x, y, 0}, Quaternion::Identity()});
+    sensor_world.Refresh();
+    lines.LookFrom(observer, {5, 5, 0.1}, 3);
+    lines.LookAtBodiesAround();
+    return lines.Solve()[0];
+  };
+  for (int round = 0; round < 2; ++round)
+  {
+    EXPECT_TRUE(is_seen_at(4.5, 5));
+    EXPECT_FALSE(is_seen_at(7, 5));
+    EXPECT_TRUE(is_seen_at(5.5, 5.5));
+    EXPECT_FALSE(is_seen_at(5, 7));
+  }
+}
+
 TEST(SightLines, TheBodiesAroundAreAllWithinReach)
 {
   for (std::uint32_t trial = 0; trial < 20; ++trial)
