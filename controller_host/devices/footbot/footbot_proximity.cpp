@@ -152,13 +152,23 @@ void FootbotProximity::FindNear()
       grid.ForEachOtherNear(static_cast<std::size_t>(place_[first + lane]), reach, windows, lane,
                             [&](std::size_t other) { near_.push_back(grid.Sorted()[other]); });
       const auto fixed_begin = static_cast<std::uint32_t>(near_.size());
-      const std::span<const std::uint32_t> fixed = fixed_for_long_->InCell(fixed_cells[lane]);
-      near_.insert(near_.end(), fixed.begin(), fixed.end());
+      for (const std::uint32_t body : fixed_for_long_->InCell(fixed_cells[lane]))
+        if (!StaysBeyond(robots_[number_[first + lane]], body)) near_.push_back(body);
       const std::uint32_t count = static_cast<std::uint32_t>(near_.size()) - begin;
       if (count > 0 || sees_more) surroundings_.push_back({number_[first + lane], begin, count, fixed_begin});
     }
   }
   std::ranges::sort(surroundings_, {}, &Surroundings::k);
+}
+
+bool FootbotProximity::StaysBeyond(std::uint32_t robot, std::uint32_t body) const
+{
+  const PoseArrays& poses = world_->Space().Poses();
+  const BodyShape& shape = world_->Body(body);
+  if (shape.kind != Shape::Kind::kBox || !IsUpright(poses, body)) return false;
+  constexpr double kRounding = 1e-9;  // m
+  return PlaceBesideBox(poses, body, shape.half_size, poses.x[robot], poses.y[robot])
+      .IsBeyond(rays_.Reach() + world_->Moved().Margin() / 2 + kRounding);
 }
 
 void FootbotProximity::SenseNear()

@@ -77,6 +77,9 @@ private:
               const Vector3& at, bool body_upright);
   void FinishReadings(std::size_t k);
   double* ReadingsAt(std::size_t place) { return blocks_[place / kBlock][place % kBlock].values; }
+  // Returns whether a body that never moves is an upright box out of reach of a robot until neighbours are searched
+  // for again.
+  bool StaysBeyond(std::uint32_t robot, std::uint32_t body) const;
   // Adds noise to the readings of robots that have none yet.
   void Disturb();
   void AddAny(std::uint32_t robot, const Shape& shape, const Pose& other);

@@ -15,6 +15,26 @@
 namespace swarmanoid
 {
 
+// A place in the frame of an upright box, in the plane (m).
+struct PlaceBesideBox
+{
+  PlaceBesideBox(const PoseArrays& poses, std::uint32_t body, const Vector3& half_size, double at_x, double at_y)
+      : box(HeadingOf(poses, body))
+  {
+    const double dx = at_x - poses.x[body];
+    const double dy = at_y - poses.y[body];
+    x = box.cos * dx + box.sin * dy;
+    y = box.cos * dy - box.sin * dx;
+    outside_x = std::max(__builtin_fabs(x) - half_size.x(), 0.0);
+    outside_y = std::max(__builtin_fabs(y) - half_size.y(), 0.0);
+  }
+  bool IsBeyond(double reach) const { return outside_x * outside_x + outside_y * outside_y > reach * reach; }
+
+  Heading box;
+  double x, y;
+  double outside_x, outside_y;  // from the sides of the box, 0 between them
+};
+
 class FootbotProximityRays
 {
 public:
@@ -110,16 +130,11 @@ inline void FootbotProximityRays::AddDisc(const PoseArrays& poses, std::uint32_t
 inline void FootbotProximityRays::AddUprightBox(const PoseArrays& poses, std::uint32_t robot, std::uint32_t body,
                                                 const Vector3& half_size)
 {
-  const Heading box = HeadingOf(poses, body);
-  const double dx = poses.x[robot] - poses.x[body];
-  const double dy = poses.y[robot] - poses.y[body];
-  const double ox = box.cos * dx + box.sin * dy;
-  const double oy = box.cos * dy - box.sin * dx;
+  const PlaceBesideBox place(poses, body, half_size, poses.x[robot], poses.y[robot]);
+  const auto& [box, ox, oy, outside_x, outside_y] = place;
   const double near = ring_radius_;
   const double far = Reach();
-  const double outside_x = std::max(__builtin_fabs(ox) - half_size.x(), 0.0);
-  const double outside_y = std::max(__builtin_fabs(oy) - half_size.y(), 0.0);
-  if (outside_x * outside_x + outside_y * outside_y > far * far) return;
+  if (place.IsBeyond(far)) return;
 
   // The rays turned into the frame of the box.
   const Heading own = HeadingOf(poses, robot);

@@ -117,7 +117,7 @@ private:
   {
     std::array<float, kByteLanes> x, y, first, last, slope, length;
     std::array<std::uint8_t, kByteLanes> turn, distance;
-    // Of two cylinders each: the lines that may meet them, kByteLanes bits for each, and the first one.
+    // The lines that may meet one of two cylinders, kByteLanes bits for each, and the number of the first cylinder.
     std::array<std::uint64_t, kBlock / 2> meeting;
     std::array<std::uint32_t, kBlock / 2> disc;
     std::array<std::int32_t, kBlock * kByteLanes + kLanes> pairs;  // number of the cylinder, then of the line

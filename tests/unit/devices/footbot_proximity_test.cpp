@@ -253,6 +253,9 @@ TEST(FootbotProximity, WhoIsRememberedIsWhoIsNear)
       robots.push_back(n);
     }
     world.AddBlock({3, 1.5, 0.25}, {0.2, 3, 0.5});
+    for (std::uint32_t n = 0; n < 6; ++n)
+      world.AddBlock({random.Uniform(0.3, 2.7), random.Uniform(0.3, 2.7), 0.25}, {0.5, 0.05, 0.5},
+                     random.Uniform(-3, 3));
     for (std::uint32_t n = 0; n < 8; ++n)
       world.AddPrey(random.Uniform(0.3, 2.7), random.Uniform(0.3, 2.7), random.Uniform(0.02, 0.2), 0.1);
     TestSensor sensor(world, "footbot_proximity", "generic_footbot_proximity", robots);
