@@ -65,16 +65,26 @@ std::vector<char> ReadWhole(const std::string& path)
   return file.Read(0, file.Size());
 }
 
-// Erases the first element of this name from a text of XML, with its content and the space before it.
-void EraseElement(std::string& text, const std::string& name)
+enum class EndTag : std::uint8_t
+{
+  kStays,
+  kGoes  // with the space before the element
+};
+
+// Erases the first element of this name from a text of XML, with its content.
+void EraseElement(std::string& text, const std::string& name, EndTag end_tag)
 {
   std::size_t start = text.find("<" + name + ">");
-  std::string end_tag = "</" + name + ">";
-  if (start == std::string::npos) start = text.find(end_tag = "<" + name + "/>");
-  const std::size_t end = text.find(end_tag, start);
+  std::string end_of = "</" + name + ">";
+  if (start == std::string::npos) start = text.find(end_of = "<" + name + "/>");
+  std::size_t end = text.find(end_of, start);
   if (start == std::string::npos || end == std::string::npos) return;
-  const std::size_t before = text.find_last_not_of(" \n", start - 1) + 1;
-  text.erase(before, end + end_tag.size() - before);
+  if (end_tag == EndTag::kGoes)
+  {
+    end += end_of.size();
+    start = text.find_last_not_of(" \n", start - 1) + 1;
+  }
+  text.erase(start, end - start);
 }
 
 }  // namespace
@@ -89,9 +99,11 @@ std::span<const char> Checkpoint::StateOf(const std::string& name) const
 std::uint64_t FingerprintOf(const Experiment& experiment)
 {
   // A restored run may be longer than the original run and be shown in another way, and its files may have been moved.
-  // CheckpointOrigin::libraries has their contents.
+  // CheckpointOrigin::libraries has their contents. Two end tags stay, as in the files of earlier versions.
   std::string text = experiment.effective_xml;
-  for (const char* const name : {"maxclock", "folder", "visualisations"}) EraseElement(text, name);
+  EraseElement(text, "maxclock", EndTag::kStays);
+  EraseElement(text, "folder", EndTag::kStays);
+  EraseElement(text, "visualisations", EndTag::kGoes);
   return XXH3_64bits(text.data(), text.size());
 }
 
