@@ -34,6 +34,14 @@ using Eigen::Vector3d;
 
 constexpr double kTolerance = 1e-12;
 
+TEST(Argos3Api, NamedAnglesArePartsOfPi)
+{
+  const std::pair<CRadians, double> angles[] = {{CRadians::PI, 1},           {CRadians::TWO_PI, 0.5},
+                                                {CRadians::PI_OVER_TWO, 2},  {CRadians::PI_OVER_THREE, 3},
+                                                {CRadians::PI_OVER_FOUR, 4}, {CRadians::PI_OVER_SIX, 6}};
+  for (const auto& [angle, parts] : angles) EXPECT_DOUBLE_EQ(angle.GetValue() * parts, std::acos(-1.0));
+}
+
 TEST(Argos3Api, QuaternionsTurnVectorsAsEigens)
 {
   CRandom::CRNG random(1);

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "common/control_interface/ci_device.h"
+#include "common/control_interface/ci_radio.h"
 #include "common/control_interface/ci_range_and_bearing.h"
+#include "common/control_interface/eyebot/ci_eyebot_laser_actuator.h"
 
 namespace swarmanoid
 {
@@ -74,6 +76,29 @@ protected:
   }
 };
 
+struct Laser : CCI_EyeBotLaserActuator
+{
+  void SwitchOn() override { told.push_back("on"); }
+  void SwitchOff() override { told.push_back("off"); }
+  void SetColour(std::uint32_t colour) override { told.push_back("colour " + std::to_string(colour)); }
+  void SetDirection(double pan, double tilt) override
+  {
+    told.push_back("pan " + std::to_string(pan) + ", tilt " + std::to_string(tilt));
+  }
+  std::vector<std::string> told;
+};
+
+struct Radio : CCI_RadioActuator
+{
+  bool Send(std::span<const std::uint8_t> bytes) override
+  {
+    sent.emplace_back(bytes.begin(), bytes.end());
+    return true;
+  }
+  unsigned GetWaiting() const override { return 0; }
+  std::vector<std::vector<int>> sent;
+};
+
 std::vector<std::string> NamesOf(const std::vector<CCI_Column>& columns)
 {
   std::vector<std::string> names;
@@ -126,6 +151,29 @@ TEST(Columns, AnActuatorTakesANumberForEachNameAndShowsWhatItWasTold)
   lamp.SetColumns(std::vector<double>{3, 1e9});
   EXPECT_THAT(lamp.told, ElementsAre(3, 0xffffff));
   EXPECT_THAT(ShownOf(lamp), ElementsAre("level", "colour"));
+}
+
+TEST(Columns, OfALaserAreWhetherItIsOnItsColourPanAndTilt)
+{
+  Laser laser;
+  EXPECT_THAT(NamesOf(laser.Columns()), ElementsAre("on", "colour", "pan [rad]", "tilt [rad]"));
+  laser.SetColumns(std::vector<double>{1, 5, 0.5, 0.25});
+  EXPECT_THAT(laser.told, ElementsAre("on", "colour 5", "pan 0.500000, tilt 0.250000"));
+}
+
+TEST(Columns, OfARadioSendPacketsOfAnyLength)
+{
+  Radio radio;
+  std::vector<double> packet(2 + Radio::MAX_BYTES, 7);
+  for (const double length : {0.0, 1.0, 3.0})
+  {
+    packet[0] = 1;
+    packet[1] = length;
+    radio.SetColumns(packet);
+  }
+  packet[0] = 0;
+  radio.SetColumns(packet);
+  EXPECT_THAT(radio.sent, ElementsAre(IsEmpty(), ElementsAre(7), ElementsAre(7, 7, 7)));
 }
 
 TEST(Columns, ADeviceThatDeclaresNothingHasNone)

@@ -198,6 +198,16 @@ TEST(EyeBotState, OfVelocityAndPositionTheLaterOneCounts)
   EXPECT_THAT(propellers.calls, ElementsAre("to 3.000000", "velocity"));
 }
 
+TEST(HandBotState, JointsThatAreNotListedAreNamed)
+{
+  CCI_Robot robot("hb", "handbot");
+  CCI_HandBotState state(&robot);
+  state.Init();
+  EXPECT_THROW(state.GetJoint(CCI_HandBotJointsSensor::HOLDS_LEFT), CCI_DeviceError);
+  EXPECT_THROW(state.IsHolding(CCI_HandBotHandsActuator::LEFT), CCI_DeviceError);
+  EXPECT_THROW(state.GetHeldId(CCI_HandBotHandsActuator::LEFT), CCI_DeviceError);
+}
+
 TEST(HandBotState, LightsItsBeacon)
 {
   CCI_Robot robot("hb", "handbot");

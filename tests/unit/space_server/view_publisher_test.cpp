@@ -108,6 +108,18 @@ TEST_F(ViewPublisherTest, WhoeverAskedGetsSeveralViewsHoweverSeldom)
   EXPECT_LT(sent, 10);
 }
 
+TEST_F(ViewPublisherTest, OneViewASecondIsNotMore)
+{
+  Bus looker(options_, "visualiser 'v'");
+  const Subscription<ViewMessage> views(looker, "viewed", [](const ViewMessage&) {});
+  views_.Requested({"host:2", world_.run, 1, false, {}});
+  ASSERT_TRUE(Eventually([&] { return Sends(); }));
+  int sent = 0;
+  for (std::uint64_t tick = 1; tick <= 250; ++tick, now_ += 10ms) sent += Sends(tick) ? 1 : 0;
+  EXPECT_GE(sent, 2);
+  EXPECT_LE(sent, 4);
+}
+
 // One came as another one went: there are as many readers as before.
 TEST_F(ViewPublisherTest, WhoeverAsksForTheFirstTimeIsANewcomer)
 {
