@@ -119,11 +119,7 @@ TEST_F(InspectionTest, AProcessThatIsLateIsNamed)
   // Paused, it holds no lock of the memory that it shares with the others when it is stopped.
   Begin(0, 2, {"--paused", "--real-time", "5"});
   LatestMessage<RunStatusMessage> status(*bus_, "inspected");
-  ASSERT_EQ(Ask("step 20").tick, 20U);
   ChildProcess& host = workers_.back();
-  ASSERT_TRUE(host.StopAsleep());
-  Ask("resume");
-  ASSERT_TRUE(Eventually([&] { return status.Get().has_value(); }));
   const auto late = [&]
   {
     std::vector<std::string> names;
@@ -132,17 +128,24 @@ TEST_F(InspectionTest, AProcessThatIsLateIsNamed)
       if (process.late_s > 1.5) names.push_back(process.name);
     return names;
   };
-  EXPECT_TRUE(Eventually([&] { return late() == std::vector<std::string>{"controller host 1"}; }))
-      << testing::PrintToString(late());
-  host.Signal(SIGCONT);
-  EXPECT_TRUE(Eventually(
-      [&]
-      {
-        const RunStatusMessage now = *status.Get();
-        for (const ProcessStatus& process : now.status.processes)
-          if (process.late_s > 0) return false;
-        return true;
-      }));
+  const auto is_on_time = [&]
+  {
+    const RunStatusMessage now = *status.Get();
+    return std::ranges::none_of(now.status.processes, [](const ProcessStatus& process) { return process.late_s > 0; });
+  };
+  // The engine says twice in the same words that it waits for the host.
+  for (int time = 0; time < 2; ++time)
+  {
+    Ask("step 20");
+    ASSERT_TRUE(host.StopAsleep());
+    Ask("resume");
+    ASSERT_TRUE(Eventually([&] { return status.Get().has_value(); }));
+    EXPECT_TRUE(Eventually([&] { return late() == std::vector<std::string>{"controller host 1"}; }))
+        << testing::PrintToString(late());
+    host.Signal(SIGCONT);
+    EXPECT_TRUE(Eventually(is_on_time));
+    Ask("pause");
+  }
   Ask("stop");
   ExpectEnd();
 }

@@ -353,10 +353,15 @@ void WorkerSession::WaitUntilDone(std::chrono::milliseconds period,
 {
   while (true)
   {
-    if (const std::optional<std::string> text = idle(); text && *text != last_status_)
+    if (std::optional<std::string> text = idle())
     {
-      last_status_ = *text;
-      status_->Write({world_.run, Tick(), name_, *text});
+      // The same text at another tick is news: the server asks for what is said of its tick.
+      const std::uint64_t tick = Tick();
+      if (last_status_.run != world_.run || last_status_.tick != tick || last_status_.text != *text)
+      {
+        last_status_ = {world_.run, tick, name_, std::move(*text)};
+        status_->Write(last_status_);
+      }
     }
     CheckEnd();
     std::unique_lock lock(mutex_);

@@ -121,8 +121,8 @@ private:
   WorldMessage world_;
   std::optional<WorldMessage> next_world_;  // the world of the server that resumes the run
   std::set<std::string> trusted_;
-  bool server_seen_ = false;  // the server was seen among the processes of this machine; main thread
-  std::string last_status_;   // main thread
+  bool server_seen_ = false;   // the server was seen among the processes of this machine; main thread
+  StatusMessage last_status_;  // main thread
   std::unique_ptr<RunDirectory> directory_;
   std::unique_ptr<Subscription<WorldMessage>> worlds_;
   std::unique_ptr<Publisher<JoinMessage>> join_;
