@@ -37,7 +37,7 @@ struct SightPoints
   std::vector<float> x, y, z;
   std::vector<std::int32_t> owner;
 
-  // Reserves ReusedMemory for `points` and kLanes more.
+  // Makes the arrays long enough for `points` and kLanes more.
   void Reserve(std::size_t points);
   operator PointView() const { return {count, x.data(), y.data(), z.data(), owner.data()}; }
 };
@@ -139,7 +139,8 @@ private:
     const std::int32_t* meets;
     const std::int32_t* place;
   };
-  // What the cover leaves in half of the directions. Points have their places as owners.
+  // The points and cylinders that the cover does not hide, in half of the directions. The owner of each point is its
+  // place among all points.
   struct Half
   {
     SightPoints left;

@@ -33,7 +33,7 @@ TEST(WorkerPool, DoesEachPartOfAPieceOnce)
     }
 }
 
-// One thread has nobody to share with: its work, and the sensors of its robots, stay in one piece.
+// A pool of one thread cannot share its work, so it divides neither the work nor the sensors of its robots.
 TEST(WorkerPool, OneThreadHasOnePart)
 {
   EXPECT_EQ(WorkerPool(1).Parts(), 1U);
