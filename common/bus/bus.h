@@ -163,6 +163,8 @@ public:
   // Throws BadMessage if a name in the message cannot be sent. Throws BusError if the bus does not take it, or if this
   // process has no key of the run.
   void Write(const Message& message);
+  // Readers that come from now on get no earlier message, of a topic whose last one is kept for them.
+  void Forget();
   unsigned Readers() const;
   // Returns false if not all readers confirmed in time.
   bool WaitUntilRead(double seconds);

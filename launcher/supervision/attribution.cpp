@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "common/errors/exit_codes.h"
@@ -18,6 +19,13 @@ namespace
 {
 
 constexpr int kSshFailed = 255;
+
+// Returns true if both died in the same step of the same code. A process that replaces them will die there too.
+bool DiedAlike(const ActivityRecord& a, const ActivityRecord& b)
+{
+  return a.end == EndReason::kDied && b.end == EndReason::kDied && a.kind == b.kind && a.number == b.number &&
+         a.step == b.step && a.tick == b.tick;
+}
 
 }  // namespace
 
@@ -93,10 +101,16 @@ bool WasKilled(const ProcessEnd& ended, bool elsewhere)
   return ended.signal == SIGKILL || (elsewhere && (ended.exit_code == 128 + SIGKILL || ended.exit_code == kSshFailed));
 }
 
-bool DiedAlike(const ActivityRecord& a, const ActivityRecord& b)
+bool DeathCount::Add(std::uint64_t ticks, const ActivityRecord& record, unsigned most)
 {
-  return a.end == EndReason::kDied && b.end == EndReason::kDied && a.kind == b.kind && a.number == b.number &&
-         a.step == b.step && a.tick == b.tick;
+  if (ticks > ticks_) *this = {};
+  if (count_ >= most || DiedAlike(last_, record)) return false;
+  ++count_;
+  // The tick in which it died may be done, and the server's report of it comes late. After a restart earlier ticks come
+  // again.
+  ticks_ = std::max({ticks_, ticks, record.tick + 1});
+  last_ = record;
+  return true;
 }
 
 std::string FailureText(const FailedProcess& failed, std::uint64_t server_tick, const ActorNames& actor_of,

@@ -52,8 +52,20 @@ bool IsStuck(const std::optional<ProcessEnd>& ended);
 bool MayBeReplaced(const ProcessEnd& ended, const ActivityRecord& record, bool elsewhere);
 // Returns true if SIGKILL ended the process, or its connection by ssh failed. Its own code is then not the cause.
 bool WasKilled(const ProcessEnd& ended, bool elsewhere);
-// Returns true if both died in the same step of the same code. A process that replaces them will die there too.
-bool DiedAlike(const ActivityRecord& a, const ActivityRecord& b);
+
+// The deaths of a process while the run makes no progress.
+class DeathCount
+{
+public:
+  // Counts a death. `ticks` is the number of ticks that the server has reported as done. Returns false, and counts
+  // nothing, if `most` deaths are counted already or if the process died like the last time.
+  bool Add(std::uint64_t ticks, const ActivityRecord& record, unsigned most);
+
+private:
+  unsigned count_ = 0;
+  std::uint64_t ticks_ = 0;  // the run has made progress once more ticks than these are done
+  ActivityRecord last_;
+};
 
 // FailureText describes such a process in one line: its name, the failure and the tick. `actor_of` names the code that
 // ran in a killed process. `server_tick` is the run's tick, for processes without their own. `killed_for_memory` is the

@@ -417,13 +417,7 @@ bool Supervisor::Replace(const ClusterMember& member)
 
 bool Supervisor::CountDeath(const ClusterMember& member)
 {
-  const ActivityRecord record = member.Record();
-  Deaths& deaths = deaths_[member.Name()];
-  if (progress_.tick > deaths.tick) deaths = {};
-  if (deaths.count >= run_.retries || DiedAlike(deaths.last, record)) return false;
-  // The server's reports of its tick are late, and after a restart earlier ticks come again.
-  deaths = {deaths.count + 1, std::max({deaths.tick, progress_.tick, record.tick}), record};
-  return true;
+  return deaths_[member.Name()].Add(progress_.tick, member.Record(), run_.retries);
 }
 
 std::optional<ControllerDeath> Supervisor::NewDeath(const ClusterMember& member) const

@@ -106,13 +106,6 @@ private:
     kDying        // SIGTERM is sent, SIGKILL follows
   };
 
-  // The deaths of a process while the run makes no progress.
-  struct Deaths
-  {
-    unsigned count = 0;
-    std::uint64_t tick = 0;
-    ActivityRecord last;
-  };
   // The lines that a visualiser has written, and those already shown.
   struct Screen
   {
@@ -204,7 +197,7 @@ private:
   std::set<std::string> left_;  // workers that may end
   std::set<std::string> lost_;  // workers that the server does not hear any more
 
-  std::map<std::string, Deaths> deaths_;
+  std::map<std::string, DeathCount> deaths_;
   std::map<std::string, std::string> moves_;  // machines of workers that were killed to move them there
   // The former machines of workers that were moved while the run was at the tick.
   std::map<std::string, std::pair<std::string, std::uint64_t>> came_from_;

@@ -161,12 +161,13 @@ void AccessGrants::TryToOpen(Side& side, std::uint64_t tick)
   }
 }
 
-// Ends a grant. Afterwards its key seals refusals only.
+// Ends a grant. Afterwards its key seals refusals only, and whoever comes late finds no run.
 void AccessGrants::End(Side& side, std::uint64_t tick, const std::string& why)
 {
   side.ended = why;
   side.is_over = true;
   --open_;
+  if (side.worlds != nullptr) side.worlds->Forget();
   if (side.leave != nullptr) side.leave->Write({session_.World().run, tick, "space server", "", why});
   PrintError("space server: {}\n", why);
 }

@@ -100,6 +100,14 @@ void Publisher<Message>::Write(const Message& message)
 }
 
 template <class Message>
+void Publisher<Message>::Forget()
+{
+  std::size_t forgotten = 0;
+  if (!Succeeded(impl_->writer->clear_history(&forgotten)))
+    throw BusError(std::string("cannot forget messages of ") + kTopicOf<Message>);
+}
+
+template <class Message>
 unsigned Publisher<Message>::Readers() const
 {
   return impl_->writer.Matched();

@@ -314,6 +314,39 @@ TEST(Bus, KeepsTheWorldForThoseWhoComeLater)
   EXPECT_EQ(seen.entities[1].first_slot, 12U);
 }
 
+TEST(Bus, WhoeverComesAfterAMessageWasForgottenGetsOnlyLaterOnes)
+{
+  const FreeDomain domain;
+  BusOptions options = Options();
+  options.domain = domain.Id();
+  Bus server(options, "server");
+  Publisher<WorldMessage> worlds(server, "forgotten");
+  WorldMessage world;
+  world.run = 77;
+  worlds.Write(world);
+  worlds.Forget();
+  Bus late(options, "late");
+  std::mutex mutex;
+  std::vector<std::uint64_t> runs;
+  Subscription<WorldMessage> in(late, "*",
+                                [&](const WorldMessage& message)
+                                {
+                                  const std::lock_guard lock(mutex);
+                                  runs.push_back(message.run);
+                                });
+  ASSERT_TRUE(Eventually([&] { return worlds.Readers() == 1 && in.Writers() == 1; }));
+  world.run = 78;
+  worlds.Write(world);
+  // Messages of one writer arrive in their order.
+  ASSERT_TRUE(Eventually(
+      [&]
+      {
+        const std::lock_guard lock(mutex);
+        return !runs.empty();
+      }));
+  EXPECT_EQ(runs, (std::vector<std::uint64_t>{78}));
+}
+
 TEST(Bus, NamesAProcessThatWasKilledWithinASecond)
 {
   const FreeDomain domain;

@@ -89,6 +89,31 @@ TEST(Attribution, WhoeverSaidWhatIsWrongIsNotStartedAgain)
       EXPECT_FALSE(MayBeReplaced(Exited(code), Record(EndReason::kUnknown), elsewhere)) << code;
 }
 
+TEST(Attribution, DeathsCountUntilATickAfterThatOfTheLastOneIsDone)
+{
+  DeathCount deaths;
+  ActivityRecord record = Record(EndReason::kUnknown);
+  EXPECT_TRUE(deaths.Add(49, record, 2));
+  EXPECT_TRUE(deaths.Add(50, record, 2));
+  EXPECT_FALSE(deaths.Add(51, record, 2)) << "tick 50 itself is the 51st, and its report may come late";
+  EXPECT_TRUE(deaths.Add(52, record, 2));
+  // All processes have started again from an earlier tick.
+  record.tick = 40;
+  EXPECT_TRUE(deaths.Add(40, record, 2));
+  EXPECT_FALSE(deaths.Add(52, record, 2));
+}
+
+TEST(Attribution, OneThatDiesLikeTheLastTimeDiesForGood)
+{
+  DeathCount deaths;
+  ActivityRecord record = Record(EndReason::kDied);
+  record.step = ActivityStep::kDestroy;
+  EXPECT_TRUE(deaths.Add(30, record, 9));
+  EXPECT_FALSE(deaths.Add(51, record, 9)) << "the server's report of the last tick came between the two deaths";
+  record.number = 1;
+  EXPECT_TRUE(deaths.Add(51, record, 9));
+}
+
 TEST(Attribution, AKilledProcessIsToldByWhomItRan)
 {
   ActivityRecord record = Record(EndReason::kUnknown);
