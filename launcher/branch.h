@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/experiment/experiment.h"
-#include "common/run/run_settings.h"
+#include "common/run/run_options.h"
 #include "launcher/branch_changes.h"
 #include "launcher/supervision/run_request.h"
 #include "launcher/system/scratch_folder.h"

@@ -5,7 +5,7 @@
 
 #include "common/program/program.h"
 #include "common/program/trust_flag.h"
-#include "common/run/run_settings.h"
+#include "common/run/run_options.h"
 #include "launcher/run_experiment.h"
 #include "simulation/register_all.h"
 

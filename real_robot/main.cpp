@@ -7,7 +7,7 @@
 #include "common/logging/log.h"
 #include "common/plugins/library.h"
 #include "common/program/interrupts.h"
-#include "common/program/options.h"
+#include "common/program/option_table.h"
 #include "common/program/program.h"
 #include "common/program/usage_error.h"
 #include "real_robot/control_loop.h"

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "common/experiment/experiment.h"
-#include "common/run/run_settings.h"
+#include "common/run/run_options.h"
 #include "common/run/run_summary.h"
 
 #ifndef SWARMANOID_OWN_SOURCES

@@ -16,7 +16,7 @@
 #include "common/plugins/catalogue.h"
 #include "common/program/colour.h"
 #include "common/program/trust_flag.h"
-#include "common/run/run_settings.h"
+#include "common/run/run_options.h"
 #include "launcher/command/sub_command.h"
 #include "launcher/engine_exchange.h"
 #include "launcher/smoke_test.h"

@@ -17,7 +17,7 @@
 #include "common/messages/control_verbs.h"
 #include "common/run/access/access_grant.h"
 #include "common/run/access/cluster_options.h"
-#include "common/run/run_settings.h"
+#include "common/run/run_options.h"
 #include "launcher/command/control_words.h"
 #include "launcher/command/run_choice.h"
 #include "launcher/command/sub_command.h"

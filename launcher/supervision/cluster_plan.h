@@ -14,7 +14,7 @@
 #include "common/experiment/experiment.h"
 #include "common/program/process.h"
 #include "common/run/access/cluster_options.h"
-#include "common/run/run_settings.h"
+#include "common/run/run_options.h"
 #include "launcher/supervision/machines.h"
 #include "launcher/supervision/run_request.h"
 #include "space_server/worker_placement.h"

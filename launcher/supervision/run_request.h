@@ -5,7 +5,7 @@
 #include <functional>
 #include <utility>
 
-#include "common/run/run_settings.h"
+#include "common/run/run_options.h"
 #include "launcher/supervision/machines.h"
 #include "simulation/watched_simulator.h"
 

@@ -13,7 +13,7 @@
 #include "common/configuration/wording.h"
 #include "common/space/terrain/jpeg_picture.h"
 #include "common/space/terrain/rectangles.h"
-#include "launcher/worlds/world.h"
+#include "launcher/worlds/imported_world.h"
 
 namespace swarmanoid
 {

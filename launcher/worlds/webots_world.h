@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "launcher/worlds/world.h"
+#include "launcher/worlds/imported_world.h"
 
 namespace swarmanoid
 {

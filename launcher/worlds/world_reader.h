@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "launcher/worlds/world.h"
+#include "launcher/worlds/imported_world.h"
 
 namespace swarmanoid
 {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "common/journal/journal_reader.h"
-#include "common/run/run_settings.h"
+#include "common/run/run_options.h"
 #include "space_server/event_log.h"
 #include "space_server/run_control.h"
 

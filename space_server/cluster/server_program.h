@@ -16,7 +16,7 @@
 #include "common/bus/membership/server_session.h"
 #include "common/bus/membership/status_channel.h"
 #include "common/bus/membership/worker_world.h"
-#include "common/run/run_settings.h"
+#include "common/run/run_options.h"
 #include "common/threads/waiting.h"
 #include "space_server/cluster/checkpoint_writer.h"
 #include "space_server/cluster/lockstep.h"

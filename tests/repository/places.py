@@ -6,7 +6,7 @@ import re
 from tracked import report, tracked
 
 DESCRIPTIONS = "common/plugin_descriptions/"
-OPTIONS = "common/run/run_settings.cpp"
+OPTIONS = "common/run/run_options.cpp"
 IMPLEMENTATION = re.compile(r'\.implementation = "(\w+)"')
 SUB_COMMAND = re.compile(r'RegisterSubCommand \w+\(\d+, "[a-z]+", (\w+)\)')
 # Names of one word have other meanings, too.

@@ -12,7 +12,7 @@ import { TrailRecord } from "../../visualiser/web/page/src/view/trail_record.js"
 import { folder } from "./harness.mjs";
 
 globalThis.window = { addEventListener() {} };
-const { PlanCamera } = await import("../../visualiser/web/page/src/view/plan/camera.js");
+const { PlanCamera } = await import("../../visualiser/web/page/src/view/plan/plan_camera.js");
 
 const FLOOR = 0xffe2dfdc; // in memory: alpha, blue, green, red
 const canvasOf = (side) => new Uint32Array(side * side).fill(FLOOR);

@@ -1,7 +1,7 @@
 // The choice of the page's quality, with a clock of its own.
 import assert from "node:assert/strict";
 import test from "node:test";
-import { Governor, qualities } from "../../visualiser/web/page/src/view/quality.js";
+import { Governor, qualities } from "../../visualiser/web/page/src/view/quality_levels.js";
 
 // Pictures at this distance for so long. Returns the qualities it chose.
 function play(governor, clock, period_ms, seconds) {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "visualiser/gl/gl_object.h"
-#include "visualiser/scene/picture.h"
+#include "visualiser/scene/png_picture.h"
 
 namespace swarmanoid
 {

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "visualiser/interaction/viewer.h"
-#include "visualiser/scene/picture.h"
+#include "visualiser/scene/png_picture.h"
 
 namespace swarmanoid
 {

@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "common/program/usage_error.h"
-#include "common/run/run_settings.h"
+#include "common/run/run_options.h"
 
 namespace swarmanoid
 {

@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "common/run/run_settings.h"
+#include "common/run/run_options.h"
 #include "launcher/command/completion.h"
 #include "launcher/command/sub_command.h"
 #include "test_folders.h"

@@ -1,7 +1,7 @@
 // The small languages of the command: control requests, templates.
 #include <gmock/gmock.h>
 
-#include "common/run/run_settings.h"
+#include "common/run/run_options.h"
 #include "launcher/command/control_words.h"
 #include "launcher/command/sub_command.h"
 #include "launcher/template_files.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "common/math/elementary.h"
-#include "launcher/worlds/world.h"
+#include "launcher/worlds/imported_world.h"
 #include "simulation/register_all.h"
 #include "tests/unit/launcher/world_lines.h"
 

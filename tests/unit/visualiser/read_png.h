@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "visualiser/scene/picture.h"
+#include "visualiser/scene/png_picture.h"
 
 namespace swarmanoid
 {

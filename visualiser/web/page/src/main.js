@@ -20,14 +20,14 @@ import { Inspector } from "./ui/inspector.js";
 import { listenToKeys, takesText } from "./ui/keyboard.js";
 import { HeatLegend, Legend } from "./ui/legend.js";
 import { EntityList } from "./ui/list.js";
-import { LogPanel } from "./ui/log.js";
+import { LogPanel } from "./ui/log_panel.js";
 import { Processes } from "./ui/processes.js";
 import { Timeline } from "./ui/timeline.js";
 import { Toolbar } from "./ui/toolbar.js";
 import { Tools } from "./ui/tools.js";
 import { ViewpointsMenu } from "./ui/viewpoints_menu.js";
-import { Picture } from "./view/picture.js";
-import { choices } from "./view/quality.js";
+import { Picture } from "./view/scene_picture.js";
+import { choices } from "./view/quality_levels.js";
 import { robotValues } from "./view/robot_values.js";
 
 const HIDDEN_PERIOD_MS = 1000; // between frames while the page is hidden

@@ -1,5 +1,5 @@
 // The bar at the top: the experiment, its clock and pace, the controls, and the view options.
-import { choices } from "../view/quality.js";
+import { choices } from "../view/quality_levels.js";
 import { clockText, h, icon, setText } from "./dom.js";
 
 const SPEEDS = [0.25, 0.5, 1, 2, 5, 10, 50, 0];

@@ -4,7 +4,7 @@ import * as THREE from "three";
 import { extentOf, paint } from "./look.js";
 import { hasModel, makeModel, PIXELS } from "./models.js";
 import { isPainted, meshGeometry } from "./object_mesh.js";
-import { LedTexture, ledMaterial } from "./leds.js";
+import { LedTexture, ledMaterial } from "./led_texture.js";
 import { PointAttributes, RobotPoints } from "./robot_points.js";
 import { Flag } from "../protocol.js";
 
@@ -95,7 +95,7 @@ function softDisc(colour) {
 }
 
 export class Swarm3d {
-  // `quality`: one of quality.js; `night`: whether the floor is dark.
+  // `quality`: one of quality_levels.js; `night`: whether the floor is dark.
   constructor(scene, world, quality, meshes, night) {
     this.world = world;
     this.quality = quality;

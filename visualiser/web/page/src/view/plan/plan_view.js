@@ -4,7 +4,7 @@ import { h } from "../../ui/dom.js";
 import { Flag } from "../../protocol.js";
 import { GRIP, css, extentOf, themes } from "../look.js";
 import { Backdrop } from "./backdrop.js";
-import { PlanCamera } from "./camera.js";
+import { PlanCamera } from "./plan_camera.js";
 import { PlanSwarm } from "./plan_swarm.js";
 import { TrailLayer } from "./trail_layer.js";
 import { viewOf } from "../viewpoints.js";

@@ -1,4 +1,4 @@
-#include "launcher/worlds/world.h"
+#include "launcher/worlds/imported_world.h"
 
 #include <fmt/format.h>
 

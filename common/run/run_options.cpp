@@ -1,4 +1,4 @@
-#include "common/run/run_settings.h"
+#include "common/run/run_options.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "common/program/options.h"
+#include "common/program/option_table.h"
 
 #include <fmt/format.h>
 

@@ -10,7 +10,7 @@ import { PlanView } from "./plan/plan_view.js";
 import { Marks } from "./marks.js";
 import { listenToPointer } from "./pointer.js";
 import { findGraphics } from "./graphics.js";
-import { Governor, isPaced, qualities } from "./quality.js";
+import { Governor, isPaced, qualities } from "./quality_levels.js";
 import { Colouring, Meter } from "./robot_values.js";
 import { TrailRecord } from "./trail_record.js";
 
@@ -25,7 +25,7 @@ const ARROW_GAZE = 0.09; // angle of an arrow key
 export class Picture {
   // `actions`: select(entity, further), selectAll(entities), approach(entity), move([{entity, place, yaw}]), mayMove(),
   // trouble(text), send(request), meshes(): the models of robots; hasServer: whether files can be fetched. `wanted`: one
-  // of quality.js.
+  // of quality_levels.js.
   constructor(container, wanted, actions) {
     this.container = container;
     this.actions = actions;
@@ -83,7 +83,7 @@ export class Picture {
     return qualities[isPaced(this.wanted) || this.wanted === "plan" ? this.governor.quality : this.wanted];
   }
 
-  // `wanted`: one of quality.js.
+  // `wanted`: one of quality_levels.js.
   setQuality(wanted) {
     this.wanted = wanted;
     this.useWantedView();

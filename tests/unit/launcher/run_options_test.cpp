@@ -1,5 +1,5 @@
 // The table of run settings: the allowed command lines, and the command lines of processes that are written from it.
-#include "common/run/run_settings.h"
+#include "common/run/run_options.h"
 #include "common/run/access/addresses.h"
 
 #include <fmt/format.h>
