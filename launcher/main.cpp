@@ -1,6 +1,4 @@
 // The `swarmanoid` command: runs experiments, and everything around them.
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
@@ -11,7 +9,6 @@
 #include "common/configuration/trust.h"
 #include "common/plugins/own_library.h"
 #include "common/program/program.h"
-#include "common/program/standard_output.h"
 #include "launcher/command/completion.h"
 #include "launcher/command/sub_command.h"
 #include "launcher/system/installation.h"
@@ -39,14 +36,12 @@ decltype(&swarmanoid::RunStudyWorker) LoadStudies()
       swarmanoid::FunctionOfOwnLibrary("studies", "RunStudyWorker"));
 }
 
-int Complete(const std::vector<std::string>& words)
+// Loads the library of all other sub-commands but `run`, so that a run starts without them. Returns its function that
+// completes words.
+decltype(&swarmanoid::PrintCompletions) LoadCommands()
 {
-  LoadStudies();
-  int exit_code = 0;
-  CLI::App app("", "swarmanoid");
-  swarmanoid::AddSubCommands(app, exit_code);
-  for (const std::string& line : swarmanoid::Completions(app, words)) fmt::print("{}\n", line);
-  return swarmanoid::ExitCodeWithOutput(swarmanoid::kExitDone);
+  return reinterpret_cast<decltype(&swarmanoid::PrintCompletions)>(
+      swarmanoid::FunctionOfOwnLibrary("commands", "PrintCompletions"));
 }
 
 }  // namespace
@@ -55,7 +50,11 @@ int main(int count, char** arguments)
 {
   using namespace swarmanoid;
 
-  if (count > 1 && std::string_view(arguments[1]) == kCompleteFlag) return Complete({arguments + 2, arguments + count});
+  if (count > 1 && std::string_view(arguments[1]) == kCompleteFlag)
+  {
+    LoadStudies();
+    return LoadCommands()({arguments + 2, arguments + count});
+  }
   if (count > 1 && std::string_view(arguments[1]) == kStudyWorkerFlag)
   {
     const bool trusts = count > 2 && std::string_view(arguments[2]) == kTrustFlag;
@@ -82,6 +81,7 @@ int main(int count, char** arguments)
       {
         app.require_subcommand(1);
         const std::string word = words.size() > 1 ? words[1] : "";
+        if (!IsSubCommand(word)) LoadCommands();
         if (!IsSubCommand(word)) LoadStudies();
         AddSubCommands(app, verb_code, word);
       },

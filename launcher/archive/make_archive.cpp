@@ -23,7 +23,7 @@
 #include "common/space/state_checks.h"
 #include "launcher/archive/experiment_files.h"
 #include "launcher/archive/tar_file.h"
-#include "launcher/picture_export.h"
+#include "launcher/command/picture_export.h"
 #include "launcher/supervision/progress_display.h"
 #include "launcher/system/scratch_folder.h"
 #include "simulation/load.h"

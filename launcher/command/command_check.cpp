@@ -17,8 +17,8 @@
 #include "common/program/colour.h"
 #include "common/program/trust_flag.h"
 #include "common/run/run_options.h"
+#include "launcher/command/engine_exchange.h"
 #include "launcher/command/sub_command.h"
-#include "launcher/engine_exchange.h"
 #include "launcher/smoke_test.h"
 #include "simulation/load.h"
 

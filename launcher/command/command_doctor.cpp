@@ -8,8 +8,8 @@
 
 #include "common/errors/exit_codes.h"
 #include "common/program/colour.h"
+#include "launcher/command/doctor.h"
 #include "launcher/command/sub_command.h"
-#include "launcher/doctor.h"
 #include "launcher/system/scratch_folder.h"
 
 namespace swarmanoid

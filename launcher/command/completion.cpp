@@ -1,5 +1,7 @@
 #include "launcher/command/completion.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <sstream>
@@ -8,6 +10,7 @@
 #include "common/experiment/load_experiment.h"
 #include "common/messages/control_verbs.h"
 #include "common/plugins/catalogue.h"
+#include "common/program/standard_output.h"
 #include "common/run/access/run_directory.h"
 #include "launcher/command/sub_command.h"
 #include "launcher/plugin_text.h"
@@ -177,6 +180,15 @@ private:
 std::vector<std::string> Completions(const CLI::App& app, const std::vector<std::string>& words)
 {
   return Completer(app, words.empty() ? std::vector<std::string>{""} : words).Take();
+}
+
+int PrintCompletions(const std::vector<std::string>& words)
+{
+  int exit_code = kExitDone;
+  CLI::App app("", "swarmanoid");
+  AddSubCommands(app, exit_code);
+  for (const std::string& line : Completions(app, words)) fmt::print("{}\n", line);
+  return ExitCodeWithOutput(kExitDone);
 }
 
 }  // namespace swarmanoid

@@ -21,4 +21,7 @@ inline constexpr const char* kCompleteFlag = "--complete";
 // and folders; ":files" means all files.
 std::vector<std::string> Completions(const CLI::App& app, const std::vector<std::string>& words);
 
+// Prints those of the sub-commands that are registered. Returns the exit code.
+extern "C" int PrintCompletions(const std::vector<std::string>& words);
+
 }  // namespace swarmanoid

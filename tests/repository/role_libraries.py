@@ -1,5 +1,5 @@
 """role_libraries.py PROGRAM...: the program of a role loads the libraries of its own role, and of no other. The command, which is the
-first of the programs, starts without DDS: it loads the library launcher_bus when it needs that.
+first of the programs, starts without DDS: it loads the library launcher_bus when it needs that, and other sub-commands than `run` from commands.
 
 What a process must know of the others' engines, devices and renderers to read an experiment is in common/plugin_descriptions.
 """
@@ -20,7 +20,7 @@ OF_ROLE = {
 }
 # Solvers belong to the engines. Renderers that need graphics or films load theirs when one is made. Assimp is loaded for mesh files.
 SOLVERS = {"libode", "libbox2d"}
-LATE = re.compile(r"lib(fastrtps|fastdds|fastcdr|crypto|ssl|sqlite3|nlopt|swarmanoid_(bus|launcher_bus|space_server_node|studies))$")
+LATE = re.compile(r"lib(fastrtps|fastdds|fastcdr|crypto|ssl|sqlite3|nlopt|swarmanoid_(bus|launcher_bus|space_server_node|commands|studies))$")
 GRAPHICS = re.compile(r"lib(GL|EGL|OpenGL|epoxy|glfw|Ogre|imgui|SDL|X11|avcodec|avformat|avutil|swscale)|libassimp")
 
 

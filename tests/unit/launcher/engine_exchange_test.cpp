@@ -1,5 +1,5 @@
 // `swarmanoid check FILE --engine NAME`: what another engine changes for an experiment.
-#include "launcher/engine_exchange.h"
+#include "launcher/command/engine_exchange.h"
 
 #include <gmock/gmock.h>
 

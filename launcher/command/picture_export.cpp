@@ -1,4 +1,4 @@
-#include "launcher/picture_export.h"
+#include "launcher/command/picture_export.h"
 
 #include <fmt/format.h>
 

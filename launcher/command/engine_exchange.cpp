@@ -1,7 +1,7 @@
 // Method: the tree of the experiment is read again with the other engine, which finds all mistakes that this would
 // make. The differences of its devices come from the table of engines, and those of its entities from the notes before
 // and after.
-#include "launcher/engine_exchange.h"
+#include "launcher/command/engine_exchange.h"
 
 #include <fmt/format.h>
 

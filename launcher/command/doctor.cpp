@@ -1,4 +1,4 @@
-#include "launcher/doctor.h"
+#include "launcher/command/doctor.h"
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
