@@ -254,19 +254,20 @@ const tests = {
     await until(page, (before) => swarmanoid.tick === before + 1, tick);
     await page.keyboard.press("N");
     await until(page, (before) => swarmanoid.tick === before + 11, tick);
-    // Robots have driven about, so the place is one that is free now, and so is the way's middle from fb_5 to it.
+    // Robots have driven about, so the place is one that is free now, and so is the way's middle from fb_5 to it, with fb_3 there.
     const free = await read(page, () => {
       const places = [...Array(10).keys()].map((robot) => swarmanoid.place(`fb_${robot}`));
       const isFree = (x, y, but) => places.every((place, robot) => robot === but || Math.hypot(place[0] - x, place[1] - y) > 0.3);
       for (let x = 0.4; x < 2.8; x += 0.2)
         for (let y = 0.4; y < 2.8; y += 0.2)
-          if (isFree(x, y, 3) && isFree((x + places[5][0]) / 2, (y + places[5][1]) / 2, 5)) return [x, y];
+          if (isFree(x, y, 3) && Math.hypot(places[5][0] - x, places[5][1] - y) > 0.7 && isFree((x + places[5][0]) / 2, (y + places[5][1]) / 2, 5)) return [x, y];
       return null;
     });
     await page.evaluate(([x, y]) => swarmanoid.command({ do: "move", entity: "fb_3", position: [x, y, 0], angles: [0, 0, 90] }), free);
     await until(page, ([x, y]) => Math.hypot(swarmanoid.place("fb_3")[0] - x, swarmanoid.place("fb_3")[1] - y) < 1e-6, free);
 
     // By hand: shift and drag.
+    await settled(page, "fb_5");
     const [from, to] = await read(page, () => ["fb_5", "fb_3"].map((id) => swarmanoid.project(id)));
     const before = await read(page, () => swarmanoid.place("fb_5"));
     const apart = (place) => Math.hypot(place[0] - before[0], place[1] - before[1]);
