@@ -714,11 +714,15 @@ const tests = {
     const begin = await read(page, () => swarmanoid.tick); // plots have nothing of the time before they were opened
     await until(page, (tick) => swarmanoid.tick > tick + 30, begin);
     await page.click(".plot >> nth=1 >> text=All");
-    const [table] = await Promise.all([page.waitForEvent("download"), page.click(".plot >> nth=1 >> text=CSV")]);
-    assert.equal(table.suggestedFilename(), "diffusion_10_fb_4_x_y.csv");
-    const lines = readFileSync(await table.path(), "utf8").trim().split("\n");
+    const lines = [];
+    // A busy machine shows few of the ticks.
+    await shows(async () => {
+      const [table] = await Promise.all([page.waitForEvent("download"), page.click(".plot >> nth=1 >> text=CSV")]);
+      assert.equal(table.suggestedFilename(), "diffusion_10_fb_4_x_y.csv");
+      lines.splice(0, Infinity, ...readFileSync(await table.path(), "utf8").trim().split("\n"));
+      assert.ok(lines.length > 5, `${lines.length} lines`);
+    });
     assert.equal(lines[0], "time (s),x (m),y (m)");
-    assert.ok(lines.length > 5, `${lines.length} lines`);
     const [x, y] = lines.at(-1).split(",").slice(1).map(Number);
     assert.ok(x > -0.2 && x < 3.4 && y > -0.2 && y < 3.4 && !lines.at(-1).includes("NaN"));
     const times = lines.slice(1).map((line) => Number(line.split(",")[0]));
