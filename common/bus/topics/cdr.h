@@ -53,23 +53,6 @@ struct FlagBit
   bool* value;
 };
 
-// Copies doubles and returns whether all are finite, in one pass over memory.
-inline bool CopyFinite(double* to, const char* from, std::size_t count)
-{
-  constexpr std::size_t kBlock = 512;  // stays in the cache between the two loops
-  constexpr std::uint64_t kExponent = 0x7ffULL << 52U;
-  std::uint64_t carried = 0;
-  for (std::size_t start = 0; start < count; start += kBlock)
-  {
-    const std::size_t some = std::min(kBlock, count - start);
-    std::memcpy(to + start, from + start * sizeof(double), some * sizeof(double));
-    // One more than the exponent of infinity and NaN carries into the sign.
-    for (std::size_t k = start; k < start + some; ++k)
-      carried |= (std::bit_cast<std::uint64_t>(to[k]) & kExponent) + (1ULL << 52U);
-  }
-  return carried >> 63U == 0;
-}
-
 struct ByteCounter
 {
   void Put(const void*, std::size_t count) { at += count; }
@@ -294,16 +277,24 @@ public:
     Bounded(field, text, kLongestText);
     if (!IsShowable(text)) RefuseField(field, "it is no UTF-8 text, or has control characters");
   }
+  // Returns the place of an array of numbers, which are to be copied. `count`: how many there are.
+  template <class T>
+  const char* Numbers(const char* field, std::uint32_t& count)
+  {
+    count = Count(field);
+    if (count > 0) Align(field, sizeof(T));
+    if (count > (bytes_.size() - at_) / sizeof(T)) RefuseLength(field, count, sizeof(T), bytes_.size() - at_);
+    const char* const from = bytes_.data() + at_;
+    at_ += count * sizeof(T);
+    return from;
+  }
   template <class T>
   void Array(const char* field, std::vector<T>& values)
   {
-    const std::uint32_t count = Count(field);
-    if (count > 0) Align(field, sizeof(T));
-    if (count > (bytes_.size() - at_) / sizeof(T)) RefuseLength(field, count, sizeof(T), bytes_.size() - at_);
+    std::uint32_t count = 0;
+    const char* const from = Numbers<T>(field, count);
     values.resize(count);
     if (count == 0) return;
-    const char* from = bytes_.data() + at_;
-    at_ += count * sizeof(T);
     if constexpr (std::is_same_v<T, double>)
     {
       if (!CopyFinite(values.data(), from, count)) RefuseField(field, "a number is not finite");

@@ -27,28 +27,63 @@ inline std::uint32_t UniformColumns(const std::vector<double>& poses)
   return uniform;
 }
 
-// Expands the received columns. Returns false if no poses have these numbers.
-inline bool SpreadColumns(std::vector<double>& numbers, std::uint32_t uniform)
+// Copies doubles and returns whether all are finite, in one pass over memory.
+inline bool CopyFinite(double* to, const char* from, std::size_t count)
 {
-  if (uniform == 0) return true;
-  const auto single = static_cast<std::size_t>(std::popcount(uniform));
-  if (single >= kPoseColumns || numbers.size() <= single || (numbers.size() - single) % (kPoseColumns - single) != 0)
-    return false;
-  const std::size_t entities = (numbers.size() - single) / (kPoseColumns - single);
-  std::size_t from = numbers.size();
-  numbers.resize(kPoseColumns * entities);
-  // The loop starts with the last column, so that columns still to be read are not overwritten.
-  for (std::size_t k = kPoseColumns; k-- > 0;)
+  constexpr std::size_t kBlock = 512;  // stays in the cache between the two loops
+  constexpr std::uint64_t kExponent = 0x7ffULL << 52U;
+  std::uint64_t carried = 0;
+  for (std::size_t start = 0; start < count; start += kBlock)
   {
-    double* column = numbers.data() + k * entities;
-    const bool whole = (uniform >> k & 1U) == 0;
-    from -= whole ? entities : 1;
-    if (whole)
-      std::memmove(column, numbers.data() + from, entities * sizeof(double));
-    else
-      std::fill_n(column, entities, double{numbers[from]});
+    const std::size_t some = std::min(kBlock, count - start);
+    std::memcpy(to + start, from + start * sizeof(double), some * sizeof(double));
+    // One more than the exponent of infinity and NaN carries into the sign.
+    for (std::size_t k = start; k < start + some; ++k)
+      carried |= (std::bit_cast<std::uint64_t>(to[k]) & kExponent) + (1ULL << 52U);
   }
-  return true;
+  return carried >> 63U == 0;
+}
+
+enum class ColumnMistake
+{
+  kNone,
+  kLength,    // no poses have so many numbers with these flags
+  kNotFinite  // the poses must not be used
+};
+
+// Expands the received columns, `count` doubles at `from`, to all seven. `poses` usually has the numbers of an earlier
+// message: a uniform column that has the number already is only read.
+inline ColumnMistake SpreadColumns(const char* from, std::size_t count, std::uint32_t uniform,
+                                   std::vector<double>& poses)
+{
+  const auto single = static_cast<std::size_t>(std::popcount(uniform));
+  std::size_t entities = 0;
+  if (uniform != 0)
+  {
+    if (single >= kPoseColumns || count <= single || (count - single) % (kPoseColumns - single) != 0)
+      return ColumnMistake::kLength;
+    entities = (count - single) / (kPoseColumns - single);
+  }
+  poses.resize(uniform == 0 ? count : kPoseColumns * entities);
+  if (uniform == 0) return CopyFinite(poses.data(), from, count) ? ColumnMistake::kNone : ColumnMistake::kNotFinite;
+  bool finite = true;
+  for (std::size_t k = 0; k < kPoseColumns; ++k)
+  {
+    double* column = poses.data() + k * entities;
+    const bool whole = (uniform >> k & 1U) == 0;
+    if (whole)
+      finite &= CopyFinite(column, from, entities);
+    else
+    {
+      double value = 0;
+      finite &= CopyFinite(&value, from, 1);
+      if (std::memcmp(column, &value, sizeof value) != 0 ||
+          std::memcmp(column, column + 1, (entities - 1) * sizeof value) != 0)
+        std::fill_n(column, entities, value);
+    }
+    from += (whole ? entities : 1) * sizeof(double);
+  }
+  return finite ? ColumnMistake::kNone : ColumnMistake::kNotFinite;
 }
 
 }  // namespace swarmanoid

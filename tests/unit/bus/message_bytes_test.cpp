@@ -1,6 +1,8 @@
 // Messages have the bytes of the types that fastddsgen makes from the IDL.
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "common/bus/dds/for_tests.h"
 #include "common/bus/topics/message_type.h"
 #include "swarmanoid.h"
@@ -150,13 +152,38 @@ TEST(MessagePoses, TellTheSignOfZero)
 
 TEST(MessagePoses, MustFitTheFlags)
 {
-  std::vector<double> numbers(9, 1.0);
-  EXPECT_FALSE(SpreadColumns(numbers, 127));  // how many entities?
-  EXPECT_FALSE(SpreadColumns(numbers, 0b1111000));
-  EXPECT_TRUE(SpreadColumns(numbers, 0b0011111));
-  EXPECT_EQ(numbers.size(), 14U);
-  std::vector<double> few(3, 1.0);
-  EXPECT_FALSE(SpreadColumns(few, 0b0000111));
+  const std::vector<double> numbers(9, 1.0);
+  std::vector<double> poses;
+  const auto spread = [&](std::size_t count, std::uint32_t uniform)
+  { return SpreadColumns(reinterpret_cast<const char*>(numbers.data()), count, uniform, poses); };
+  EXPECT_EQ(spread(9, 127), ColumnMistake::kLength);  // how many entities?
+  EXPECT_EQ(spread(9, 0b1111000), ColumnMistake::kLength);
+  EXPECT_EQ(spread(9, 0b0011111), ColumnMistake::kNone);
+  EXPECT_EQ(poses.size(), 14U);
+  EXPECT_EQ(spread(3, 0b0000111), ColumnMistake::kLength);
+}
+
+// A reader keeps the memory of the message before.
+TEST(MessagePoses, ReplaceThoseOfAnEarlierMessage)
+{
+  RandomMessage random(5);
+  std::vector<double> kept;
+  for (std::uint32_t uniform = 0; uniform < 128; ++uniform)
+    for (const std::size_t entities : {5U, 2U, 5U, 1U})
+    {
+      const std::vector<double> poses = random.Poses(entities, uniform);
+      const std::uint32_t shortened = UniformColumns(poses);
+      std::vector<double> sent;
+      for (std::size_t k = 0; k < poses.size(); ++k)
+        if (k % entities == 0 || (shortened >> k / entities & 1U) == 0) sent.push_back(poses[k]);
+      const auto spread = [&]
+      { return SpreadColumns(reinterpret_cast<const char*>(sent.data()), sent.size(), shortened, kept); };
+      // The second time the columns have these numbers already.
+      for (int k = 0; k < 2; ++k) EXPECT_EQ(spread(), ColumnMistake::kNone);
+      EXPECT_EQ(kept, poses);
+      sent.front() = std::numeric_limits<double>::infinity();
+      EXPECT_EQ(spread(), ColumnMistake::kNotFinite);
+    }
 }
 
 // Fast DDS of an earlier release and other vendors tell instances by the same hash.
