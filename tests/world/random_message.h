@@ -63,6 +63,11 @@ public:
   {
     value = static_cast<Enum>(1 + engine_() % static_cast<std::uint32_t>(last));
   }
+  void Poses(const char*, std::vector<double>& poses, std::initializer_list<FlagBit> flags)
+  {
+    poses = Poses(engine_() % 5, static_cast<std::uint32_t>(engine_() % 128));
+    Flags("flags", flags);
+  }
   std::uint32_t Flags(const char* field, std::initializer_list<FlagBit> flags, std::uint32_t = 0)
   {
     for (const FlagBit& flag : flags) Bool(field, *flag.value);
@@ -92,10 +97,7 @@ public:
     values.resize(name == "slots" || name == "bytes" ? wanted_ : Length());
     for (T& value : values) value = static_cast<T>(engine_() % 3 + 1);
     if constexpr (std::is_same_v<T, double>)
-    {
       for (double& value : values) value = Real();
-      if (name == "poses") values = Poses(engine_() % 5, static_cast<std::uint32_t>(engine_() % 128));
-    }
     // Slots are as many as values, and ascend. Bytes are as many as the sizes say.
     wanted_ = values.size();
     if constexpr (std::is_same_v<T, std::uint32_t>)

@@ -277,16 +277,16 @@ public:
     Bounded(field, text, kLongestText);
     if (!IsShowable(text)) RefuseField(field, "it is no UTF-8 text, or has control characters");
   }
-  // Returns the place of an array of numbers, which are to be copied. `count`: how many there are.
-  template <class T>
-  const char* Numbers(const char* field, std::uint32_t& count)
+  // Reads the flags behind the poses, too.
+  void Poses(const char* field, std::vector<double>& poses, std::initializer_list<FlagBit> flags)
   {
-    count = Count(field);
-    if (count > 0) Align(field, sizeof(T));
-    if (count > (bytes_.size() - at_) / sizeof(T)) RefuseLength(field, count, sizeof(T), bytes_.size() - at_);
-    const char* const from = bytes_.data() + at_;
-    at_ += count * sizeof(T);
-    return from;
+    std::uint32_t count = 0;
+    const char* const numbers = Numbers<double>(field, count);
+    constexpr std::uint32_t kUniform = ((1U << kPoseColumns) - 1) * kFlagUniformX;
+    const std::uint32_t uniform = Flags("flags", flags, kUniform) / kFlagUniformX;
+    const ColumnMistake mistake = SpreadColumns(numbers, count, uniform, poses);
+    if (mistake == ColumnMistake::kLength) RefuseField(field, "they are not as many as the flags say");
+    if (mistake == ColumnMistake::kNotFinite) RefuseField(field, "a number is not finite");
   }
   template <class T>
   void Array(const char* field, std::vector<T>& values)
@@ -354,6 +354,17 @@ private:
     const std::uint32_t count = Count(field);
     if (count > (bytes_.size() - at_) / kLeast) RefuseLength(field, count, kLeast, bytes_.size() - at_);
     list.resize(count);
+  }
+  // Returns the place of an array, whose numbers are to be copied. `count`: how many there are.
+  template <class T>
+  const char* Numbers(const char* field, std::uint32_t& count)
+  {
+    count = Count(field);
+    if (count > 0) Align(field, sizeof(T));
+    if (count > (bytes_.size() - at_) / sizeof(T)) RefuseLength(field, count, sizeof(T), bytes_.size() - at_);
+    const char* const from = bytes_.data() + at_;
+    at_ += count * sizeof(T);
+    return from;
   }
   std::uint32_t Count(const char* field)
   {

@@ -18,13 +18,7 @@ void PoseFields(Archive& archive, std::vector<double>& poses, std::initializer_l
 {
   if constexpr (Archive::kReads)
   {
-    std::uint32_t count = 0;
-    const char* const numbers = archive.template Numbers<double>("poses", count);
-    constexpr std::uint32_t kUniform = ((1U << kPoseColumns) - 1) * kFlagUniformX;
-    const std::uint32_t uniform = archive.Flags("flags", flags, kUniform) / kFlagUniformX;
-    const ColumnMistake mistake = SpreadColumns(numbers, count, uniform, poses);
-    if (mistake == ColumnMistake::kLength) RefuseField("poses", "they are not as many as the flags say");
-    if (mistake == ColumnMistake::kNotFinite) RefuseField("poses", "a number is not finite");
+    archive.Poses("poses", poses, flags);
   }
   else
   {
