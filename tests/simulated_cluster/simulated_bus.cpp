@@ -238,6 +238,12 @@ void Publisher<Message>::Write(const Message& message)
 }
 
 template <class Message>
+void Publisher<Message>::Forget()
+{
+  impl_->writer->kept.clear();
+}
+
+template <class Message>
 unsigned Publisher<Message>::Readers() const
 {
   return SimulatedNetwork::Current().Readers(*impl_->writer);
