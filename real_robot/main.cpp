@@ -5,9 +5,9 @@
 
 #include "common/configuration/regular_file.h"
 #include "common/logging/log.h"
-#include "common/plugins/library.h"
+#include "common/plugins/plugin_library.h"
 #include "common/program/interrupts.h"
-#include "common/program/option_table.h"
+#include "common/program/option_parser.h"
 #include "common/program/program.h"
 #include "common/program/usage_error.h"
 #include "real_robot/control_loop.h"

@@ -13,7 +13,7 @@
 #include "common/configuration/wording.h"
 #include "common/control_interface/init_controller.h"
 #include "common/logging/log.h"
-#include "common/plugins/library.h"
+#include "common/plugins/plugin_library.h"
 #include "common/plugins/script_parameters.h"
 
 namespace swarmanoid

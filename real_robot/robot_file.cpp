@@ -14,7 +14,7 @@
 #include "common/configuration/regular_file.h"
 #include "common/configuration/wording.h"
 #include "common/configuration/xml_reader.h"
-#include "common/plugins/library.h"
+#include "common/plugins/plugin_library.h"
 
 namespace swarmanoid
 {

@@ -17,7 +17,7 @@
 #include "common/math/random.h"
 #include "common/messages/drawing.h"
 #include "common/plugins/registry.h"
-#include "common/space/query.h"
+#include "common/space/space_query.h"
 #include "common/space/structural_tree.h"
 #include "space_server/user_input.h"
 

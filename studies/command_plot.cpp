@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "common/errors/exit_codes.h"
-#include "common/program/option_table.h"
+#include "common/program/option_parser.h"
 #include "common/program/spawn.h"
 #include "common/program/usage_error.h"
 #include "launcher/command/sub_command.h"

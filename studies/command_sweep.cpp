@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "common/program/empty_words.h"
-#include "common/program/option_table.h"
+#include "common/program/option_parser.h"
 #include "common/program/trust_flag.h"
 #include "launcher/command/sub_command.h"
 #include "studies/sweep.h"

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "common/configuration/wording.h"
-#include "common/plugins/library.h"
+#include "common/plugins/plugin_library.h"
 
 namespace swarmanoid
 {

@@ -13,7 +13,7 @@
 #include "argos3/converter/our_ids.h"
 #include "argos3/converter/robot_rows.h"
 #include "common/configuration/wording.h"
-#include "common/plugins/library.h"
+#include "common/plugins/plugin_library.h"
 
 namespace swarmanoid::argos3
 {

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "argos3/library/running.h"
-#include "common/plugins/library.h"
+#include "common/plugins/plugin_library.h"
 
 namespace argos
 {

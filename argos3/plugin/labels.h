@@ -8,7 +8,7 @@
 
 #include "common/configuration/configuration_tree.h"
 #include "common/configuration/wording.h"
-#include "common/plugins/library.h"
+#include "common/plugins/plugin_library.h"
 
 namespace swarmanoid::argos3
 {

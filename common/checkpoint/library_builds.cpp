@@ -13,8 +13,8 @@
 #include "common/configuration/regular_file.h"
 #include "common/experiment/urdf_kind.h"
 #include "common/plugins/elf_file.h"
-#include "common/plugins/library.h"
 #include "common/plugins/own_library.h"
+#include "common/plugins/plugin_library.h"
 
 namespace swarmanoid
 {

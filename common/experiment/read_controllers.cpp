@@ -8,8 +8,8 @@
 #include "common/configuration/wording.h"
 #include "common/experiment/element_reader.h"
 #include "common/experiment/sections.h"
-#include "common/plugins/library.h"
 #include "common/plugins/parameter_checks.h"
+#include "common/plugins/plugin_library.h"
 #include "common/plugins/script_parameters.h"
 
 namespace swarmanoid

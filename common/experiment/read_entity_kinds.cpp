@@ -7,7 +7,7 @@
 #include "common/experiment/element_reader.h"
 #include "common/experiment/sections.h"
 #include "common/experiment/urdf_kind.h"
-#include "common/plugins/library.h"
+#include "common/plugins/plugin_library.h"
 
 namespace swarmanoid
 {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "common/math/reproducible_math.h"
-#include "common/plugins/library.h"
+#include "common/plugins/plugin_library.h"
 #include "common/version/version.h"
 
 namespace swarmanoid

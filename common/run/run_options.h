@@ -10,7 +10,7 @@
 
 #include "common/experiment/load_experiment.h"
 #include "common/limits/limits.h"
-#include "common/program/option_table.h"
+#include "common/program/option_parser.h"
 
 namespace swarmanoid
 {

@@ -14,7 +14,7 @@
 #include "common/errors/print_error.h"
 #include "common/experiment/reference.h"
 #include "common/plugins/catalogue.h"
-#include "common/plugins/library.h"
+#include "common/plugins/plugin_library.h"
 #include "common/program/shell_word.h"
 #include "common/run/access/run_directory.h"
 #include "launcher/command/sub_command.h"

@@ -19,7 +19,7 @@
 #include "common/configuration/xml_writer.h"
 #include "common/errors/exit_codes.h"
 #include "common/errors/print_error.h"
-#include "common/plugins/library.h"
+#include "common/plugins/plugin_library.h"
 #include "common/program/trust_flag.h"
 #include "common/run/hash_log.h"
 #include "common/space/space.h"

@@ -15,7 +15,7 @@
 #include "common/activity/failure_report.h"
 #include "common/bus/membership/library_check.h"
 #include "common/configuration/wording.h"
-#include "common/plugins/library.h"
+#include "common/plugins/plugin_library.h"
 #include "common/program/usage_error.h"
 #include "common/run/access/access_grant.h"
 #include "common/space/space.h"

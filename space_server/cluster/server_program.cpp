@@ -19,7 +19,7 @@
 #include "common/run/run_summary.h"
 #include "common/serialisation/save_check.h"
 #include "common/space/space.h"
-#include "space_server/cluster/process_liveness.h"
+#include "space_server/cluster/late_processes.h"
 
 namespace swarmanoid
 {
@@ -123,7 +123,7 @@ ServerProgram::ServerProgram(const ServerOptions& options, const Experiment& exp
                    [this] { Wake(); }),
       lockstep_(session_, server_, assignment_, options.visualisations, options.hash_log, options.watch, checkpoints_,
                 Journal(), restart_point_ ? &*restart_point_ : nullptr, [this] { Wake(); }),
-      recoveries_(session_, lockstep_, server_.Space(), assignment_, Journal())
+      journal_sender_(session_, lockstep_, server_.Space(), assignment_, Journal())
 {
   if (options.awaits_replacements && journal_) session_.AwaitReplacements();
   if (restart_point_)
@@ -367,7 +367,7 @@ void ServerProgram::HelpReplacements()
   }
   try
   {
-    recoveries_.Work();
+    journal_sender_.Work();
   }
   catch (const BusError& error)
   {

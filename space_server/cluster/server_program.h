@@ -19,8 +19,8 @@
 #include "common/run/run_options.h"
 #include "common/threads/waiting.h"
 #include "space_server/cluster/checkpoint_writer.h"
+#include "space_server/cluster/journal_sender.h"
 #include "space_server/cluster/lockstep.h"
-#include "space_server/cluster/recovery_service.h"
 #include "space_server/cluster/restart_point.h"
 #include "space_server/cluster/view_publisher.h"
 #include "space_server/pace_meter.h"
@@ -158,7 +158,7 @@ private:
   std::optional<JournalWriter> journal_;
   CheckpointWriter checkpoints_;
   Lockstep lockstep_;
-  RecoveryService recoveries_;
+  JournalSender journal_sender_;
 
   Clock::time_point start_;
   Clock::time_point end_;

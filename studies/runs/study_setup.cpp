@@ -16,7 +16,7 @@
 #include "common/configuration/regular_file.h"
 #include "common/configuration/xml_reader.h"
 #include "common/plugins/elf_file.h"
-#include "common/plugins/library.h"
+#include "common/plugins/plugin_library.h"
 #include "common/serialisation/fields.h"
 #include "common/version/version.h"
 #include "studies/metrics/recorder.h"

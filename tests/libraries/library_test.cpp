@@ -1,5 +1,5 @@
 // Libraries of controllers: the folders of the search, and the errors if they are missing or wrong.
-#include "common/plugins/library.h"
+#include "common/plugins/plugin_library.h"
 
 #include <gtest/gtest.h>
 

@@ -16,7 +16,7 @@
 #include <filesystem>
 
 #include "common/plugin_descriptions/describe_builtins.h"
-#include "common/plugins/library.h"
+#include "common/plugins/plugin_library.h"
 #include "controller_host/device.h"
 #include "engine_worker/engine_worker.h"
 #include "tests/simulated_cluster/simulated_cluster.h"

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "common/space/query.h"
+#include "common/space/space_query.h"
 
 namespace swarmanoid
 {

@@ -13,7 +13,7 @@
 #include "common/plugin_descriptions/led_cones.h"
 #include "common/space/collision_models.h"
 #include "common/space/drawn_state.h"
-#include "common/space/query.h"
+#include "common/space/space_query.h"
 #include "visualiser/scene/drawn_marks.h"
 #include "visualiser/scene/meshes.h"
 #include "visualiser/scene/proximity_rays.h"

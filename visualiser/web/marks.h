@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/space/collision_models.h"
-#include "common/space/query.h"
+#include "common/space/space_query.h"
 #include "visualiser/scene/proximity_rays.h"
 #include "visualiser/scene/scanner_rays.h"
 #include "visualiser/web/page_messages.h"

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "common/plugins/library.h"
+#include "common/plugins/plugin_library.h"
 #include "common/run/access/digest.h"
 
 namespace swarmanoid

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/program/option_table.h"
+#include "common/program/option_parser.h"
 #include "common/run/access/bus_options.h"
 
 namespace swarmanoid

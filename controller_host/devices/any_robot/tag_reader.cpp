@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "common/control_interface/ci_tag_reader_sensor.h"
-#include "common/space/query.h"
 #include "common/space/space.h"
+#include "common/space/space_query.h"
 #include "controller_host/devices/device_plugins.h"
 
 namespace swarmanoid

@@ -8,8 +8,8 @@
 #include "common/math/elementary.h"
 #include "common/space/attributes.h"
 #include "common/space/packet_attribute.h"
-#include "common/space/query.h"
 #include "common/space/space.h"
+#include "common/space/space_query.h"
 #include "controller_host/devices/device_plugins.h"
 #include "controller_host/devices/radio/shared_channel.h"
 

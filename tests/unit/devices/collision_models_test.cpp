@@ -6,7 +6,7 @@
 #include "common/mesh/convex_hull.h"
 #include "common/plugin_descriptions/describe_builtins.h"
 #include "common/plugin_descriptions/robot_parts.h"
-#include "common/space/query.h"
+#include "common/space/space_query.h"
 #include "controller_host/devices/sensing/sensor_world.h"
 #include "tests/unit/devices/test_world.h"
 

@@ -12,7 +12,7 @@
 #include "common/control_interface/ci_controller.h"
 #include "common/control_interface/ci_publish.h"
 #include "common/experiment/load_experiment.h"
-#include "common/plugins/library.h"
+#include "common/plugins/plugin_library.h"
 #include "common/space/space.h"
 #include "simulation/register_all.h"
 #include "test_folders.h"

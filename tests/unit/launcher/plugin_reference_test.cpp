@@ -12,7 +12,7 @@
 
 #include "common/experiment/reference.h"
 #include "common/plugin_descriptions/describe_builtins.h"
-#include "common/plugins/library.h"
+#include "common/plugins/plugin_library.h"
 #include "test_folders.h"
 
 namespace swarmanoid

@@ -15,7 +15,7 @@
 #include "common/configuration/configuration_tree.h"
 #include "common/errors/exit_codes.h"
 #include "common/program/help_text.h"
-#include "common/program/option_table.h"
+#include "common/program/option_parser.h"
 #include "common/program/standard_output.h"
 #include "common/program/usage_error.h"
 

@@ -15,7 +15,7 @@
 #include "common/checkpoint/host_state.h"
 #include "common/messages/assignment.h"
 #include "common/plugins/elf_file.h"
-#include "common/plugins/library.h"
+#include "common/plugins/plugin_library.h"
 #include "common/serialisation/save_check.h"
 #include "tests/world/message_of.h"
 #include "tests/world/small_experiment.h"
@@ -278,7 +278,7 @@ TEST(LibraryBuilds, SwarmanoidIsAllOfItsLibrariesThatTheStateDependsOn)
   const std::set<std::string> others{"bus",          "run",           "simulator",   "simulation", "space_server_node",
                                      "render",       "scene",         "interaction", "real_robot", "web_render",
                                      "image_render", "opengl_render", "ogre_render", "version",    "studies",
-                                     "argos3_files", "launcher_bus", "commands"};
+                                     "argos3_files", "launcher_bus",  "commands"};
   const std::string build = LibraryBuildsOf(SmallExperiment()).at(0).build;
   EXPECT_THAT(build, testing::Not(HasSubstr(".."))) << "a library of the list is not there";
   std::size_t looked_at = 0;

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "common/math/elementary.h"
-#include "common/space/query.h"
+#include "common/space/space_query.h"
 #include "tests/world/small_experiment.h"
 
 namespace swarmanoid

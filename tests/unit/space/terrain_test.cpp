@@ -15,7 +15,7 @@
 #include <fstream>
 
 #include "common/math/random.h"
-#include "common/space/query.h"
+#include "common/space/space_query.h"
 #include "tests/world/message_of.h"
 #include "tests/world/small_experiment.h"
 #include "tests/world/temporary_folder.h"

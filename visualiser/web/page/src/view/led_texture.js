@@ -1,7 +1,7 @@
 // The colours of all LEDs in one texture, and the material that shows them. A robot has 20 texels: 16 LEDs and the
 // beacon are used.
 import * as THREE from "three";
-import { BEACON } from "./models.js";
+import { BEACON } from "./mesh_geometry.js";
 import { Flag, RING_LEDS } from "../protocol.js";
 
 const TEXELS = 20;

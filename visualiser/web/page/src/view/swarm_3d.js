@@ -2,7 +2,7 @@
 // size on the screen; preys and blocks. One index of every instance array is one index of the frame.
 import * as THREE from "three";
 import { extentOf, paint } from "./look.js";
-import { hasModel, makeModel, PIXELS } from "./models.js";
+import { hasModel, makeModel, PIXELS } from "./mesh_geometry.js";
 import { isPainted, meshGeometry } from "./object_mesh.js";
 import { LedTexture, ledMaterial } from "./led_texture.js";
 import { PointAttributes, RobotPoints } from "./robot_points.js";

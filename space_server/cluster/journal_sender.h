@@ -1,4 +1,4 @@
-// RecoveryService: sends the journal to processes that replace others. The main thread of the space_server program uses
+// JournalSender: sends the journal to processes that replace others. The main thread of the space_server program uses
 // it.
 #pragma once
 
@@ -14,11 +14,11 @@
 namespace swarmanoid
 {
 
-class RecoveryService
+class JournalSender
 {
 public:
-  RecoveryService(ServerSession& session, Lockstep& lockstep, const CSwarmanoidSpace& space,
-                  const Assignment& assignment, JournalWriter* journal);
+  JournalSender(ServerSession& session, Lockstep& lockstep, const CSwarmanoidSpace& space, const Assignment& assignment,
+                JournalWriter* journal);
 
   // Answers the pending requests for the journal. Throws BusError for a process that cannot be replaced because the
   // journal has ended.

@@ -1,4 +1,4 @@
-#include "space_server/cluster/process_liveness.h"
+#include "space_server/cluster/late_processes.h"
 
 #include <algorithm>
 

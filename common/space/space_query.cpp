@@ -5,7 +5,7 @@
 //
 // Invariant: the first hit has the smallest fraction and, among equal ones, the smallest entity number. So it does not
 // depend on the index.
-#include "common/space/query.h"
+#include "common/space/space_query.h"
 
 #include <algorithm>
 #include "common/space/space.h"

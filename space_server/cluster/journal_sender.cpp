@@ -4,7 +4,7 @@
 // commands of old ticks are converted (CommandsByRobot).
 //
 // Invariant: the ticks of a plan have no gap. A replacement that needs ticks which the journal has dropped is refused.
-#include "space_server/cluster/recovery_service.h"
+#include "space_server/cluster/journal_sender.h"
 
 #include <fmt/format.h>
 
@@ -51,8 +51,8 @@ bool HasTicksFrom(const std::vector<JournalPlace>& places, std::uint64_t tick)
 
 }  // namespace
 
-RecoveryService::RecoveryService(ServerSession& session, Lockstep& lockstep, const CSwarmanoidSpace& space,
-                                 const Assignment& assignment, JournalWriter* journal)
+JournalSender::JournalSender(ServerSession& session, Lockstep& lockstep, const CSwarmanoidSpace& space,
+                             const Assignment& assignment, JournalWriter* journal)
     : session_(session),
       lockstep_(lockstep),
       assignment_(assignment),
@@ -62,7 +62,7 @@ RecoveryService::RecoveryService(ServerSession& session, Lockstep& lockstep, con
 {
 }
 
-void RecoveryService::Work()
+void JournalSender::Work()
 {
   for (const RecoveryRequestMessage& request : session_.TakeRecoveryRequests())
   {
@@ -77,14 +77,14 @@ void RecoveryService::Work()
   }
 }
 
-std::vector<char> RecoveryService::BlockAt(const JournalPlace& place)
+std::vector<char> JournalSender::BlockAt(const JournalPlace& place)
 {
   std::vector<char> block = journal_->Read(place);
   if (place.kind != JournalBlockKind::kTicks) return block;
   return shared_.Of(journal_->Table(place.table), std::move(block), place.ticks);
 }
 
-RecoveryService::Plan RecoveryService::MakePlan(const std::string& name)
+JournalSender::Plan JournalSender::MakePlan(const std::string& name)
 {
   if (journal_ == nullptr || !journal_->Works())
     throw BusError(fmt::format("{} cannot be replaced: the journal of the run has ended", name));

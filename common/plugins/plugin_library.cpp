@@ -1,4 +1,4 @@
-#include "common/plugins/library.h"
+#include "common/plugins/plugin_library.h"
 
 #include <dlfcn.h>
 

@@ -1,4 +1,4 @@
-#include "common/program/option_table.h"
+#include "common/program/option_parser.h"
 
 #include <fmt/format.h>
 
