@@ -418,6 +418,9 @@ void AccessGrants::Leave(std::uint64_t tick, const std::string& error, double pa
   {
     if (!side->is_over && side->views != nullptr) side->views->WaitUntilRead(left());
     if (side->leave != nullptr) side->leave->WaitUntilRead(left());
+    // Whoever asked for something, and reads no Leave, learns by these that it was done, or that the run has ended.
+    if (side->statuses != nullptr) side->statuses->WaitUntilRead(left());
+    if (side->replies != nullptr) side->replies->WaitUntilRead(left());
   }
 }
 

@@ -179,7 +179,8 @@ class Share(LauncherTest):
         listed = self.run_it("share", "--list").stdout
         self.assertIn(kept["id"], listed)
         self.assertNotIn(revoked["id"], listed)
-        self.assertEqual(self.control(kept["ticket"], "resume").process.returncode, 0)
+        resumed = self.control(kept["ticket"], "resume")
+        self.assertEqual(resumed.process.returncode, 0, resumed.stderr)
         self.assertEqual(run.wait(GENEROUS_S), 0, run.stderr)
 
     @unittest.skipUnless(os.geteuid() == 0, "only root can be another user")
