@@ -17,10 +17,10 @@
 #include "common/program/shell_word.h"
 #include "common/program/trust_flag.h"
 #include "common/program/usage_error.h"
-#include "launcher/command/new_files.h"
 #include "launcher/command/sub_command.h"
 #include "launcher/editor/edit_session.h"
 #include "launcher/showing.h"
+#include "launcher/templates/new_files.h"
 #include "simulation/register_all.h"
 #include "visualiser/renderer_options.h"
 

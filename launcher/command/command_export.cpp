@@ -20,7 +20,7 @@
 #include "common/program/interrupts.h"
 #include "common/space/attributes.h"
 #include "common/space/space.h"
-#include "launcher/command/picture_export.h"
+#include "launcher/archive/picture_export.h"
 #include "launcher/command/sub_command.h"
 #include "launcher/supervision/progress_display.h"
 #include "simulation/playback/export_file.h"

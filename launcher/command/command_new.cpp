@@ -4,8 +4,8 @@
 #include <string>
 
 #include "common/errors/exit_codes.h"
-#include "launcher/command/new_files.h"
 #include "launcher/command/sub_command.h"
+#include "launcher/templates/new_files.h"
 
 namespace swarmanoid
 {

@@ -12,7 +12,7 @@
 #include "common/configuration/regular_file.h"
 #include "common/configuration/wording.h"
 #include "common/run/access/digest.h"
-#include "launcher/command/new_files.h"
+#include "launcher/templates/new_files.h"
 
 namespace swarmanoid
 {

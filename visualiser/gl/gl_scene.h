@@ -6,7 +6,7 @@
 #include <string>
 
 #include "visualiser/scene/camera.h"
-#include "visualiser/scene/png_picture.h"
+#include "visualiser/scene/drawn_picture.h"
 #include "visualiser/scene/scene.h"
 
 namespace swarmanoid

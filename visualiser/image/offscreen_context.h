@@ -6,7 +6,7 @@
 #include <string>
 
 #include "visualiser/gl/gl_object.h"
-#include "visualiser/scene/png_picture.h"
+#include "visualiser/scene/drawn_picture.h"
 
 namespace swarmanoid
 {

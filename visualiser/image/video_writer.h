@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "visualiser/scene/png_picture.h"
+#include "visualiser/scene/drawn_picture.h"
 
 namespace swarmanoid
 {

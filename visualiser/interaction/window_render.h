@@ -10,7 +10,7 @@
 #include "visualiser/interaction/frame_schedule.h"
 #include "visualiser/interaction/viewer.h"
 #include "visualiser/render.h"
-#include "visualiser/scene/png_picture.h"
+#include "visualiser/scene/drawn_picture.h"
 
 namespace swarmanoid
 {

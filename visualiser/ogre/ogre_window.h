@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "visualiser/interaction/viewer.h"
-#include "visualiser/scene/png_picture.h"
+#include "visualiser/scene/drawn_picture.h"
 
 namespace swarmanoid
 {

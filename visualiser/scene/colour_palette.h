@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "visualiser/scene/png_picture.h"
+#include "visualiser/scene/drawn_picture.h"
 
 namespace swarmanoid
 {

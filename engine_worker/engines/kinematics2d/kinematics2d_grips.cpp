@@ -1,5 +1,5 @@
-// Grippers of the kinematic engine: which object a gripper takes, and when it lets go. gripped_groups.h moves those that
-// hold one another.
+// Grippers of the kinematic engine: which object a gripper takes, and when it lets go. gripped_groups.h moves those
+// that hold one another.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -4,7 +4,7 @@
 #include "common/run/run_options.h"
 #include "launcher/command/control_words.h"
 #include "launcher/command/sub_command.h"
-#include "launcher/command/template_files.h"
+#include "launcher/templates/template_files.h"
 #include "simulation/load.h"
 #include "tests/world/message_of.h"
 

@@ -11,7 +11,7 @@
 #include "tests/world/temporary_folder.h"
 #include "visualiser/figure/plan_page.h"
 #include "visualiser/figure/plan_scene.h"
-#include "visualiser/scene/png_picture.h"
+#include "visualiser/scene/drawn_picture.h"
 #include "visualiser/visualiser.h"
 
 namespace swarmanoid

@@ -14,7 +14,7 @@
 #include "tests/world/small_experiment.h"
 #include "tests/world/temporary_folder.h"
 #include "visualiser/gl/quality.h"
-#include "visualiser/scene/png_picture.h"
+#include "visualiser/scene/drawn_picture.h"
 #include "visualiser/visualiser.h"
 
 namespace swarmanoid

@@ -1,5 +1,5 @@
 // Files of pictures.
-#include "visualiser/scene/png_picture.h"
+#include "visualiser/scene/drawn_picture.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

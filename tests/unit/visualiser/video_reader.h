@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "visualiser/scene/png_picture.h"
+#include "visualiser/scene/drawn_picture.h"
 
 namespace swarmanoid
 {

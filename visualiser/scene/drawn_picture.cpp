@@ -1,4 +1,4 @@
-#include "visualiser/scene/png_picture.h"
+#include "visualiser/scene/drawn_picture.h"
 
 #include <png.h>
 

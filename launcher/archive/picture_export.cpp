@@ -1,4 +1,4 @@
-#include "launcher/command/picture_export.h"
+#include "launcher/archive/picture_export.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "launcher/command/template_files.h"
+#include "launcher/templates/template_files.h"
 
 #include <fmt/format.h>
 #include <cerrno>

@@ -1,4 +1,4 @@
-#include "launcher/command/new_files.h"
+#include "launcher/templates/new_files.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -18,8 +18,8 @@
 #include "common/configuration/wording.h"
 #include "common/program/shell_word.h"
 #include "common/program/usage_error.h"
-#include "launcher/command/template_files.h"
 #include "launcher/system/installation.h"
+#include "launcher/templates/template_files.h"
 
 namespace swarmanoid
 {
