@@ -7,6 +7,7 @@
 #include <sstream>
 #include <utility>
 
+#include "common/errors/exit_codes.h"
 #include "common/experiment/load_experiment.h"
 #include "common/messages/control_verbs.h"
 #include "common/plugins/catalogue.h"

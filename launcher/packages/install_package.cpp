@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/configuration/configuration_tree.h"
 #include "common/configuration/output_file.h"
 #include "common/configuration/regular_file.h"
 #include "common/configuration/wording.h"
