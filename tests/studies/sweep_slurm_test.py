@@ -23,6 +23,7 @@ class SweepSlurm(StartedStudyCase):
         self.environment = {**os.environ, **self.slurm.environment}
 
     def tearDown(self):
+        self.slurm.release()  # a case that fails leaves it held
         for job in self.slurm.live():
             self.slurm.ask("scancel", job)
         self.wait_until("an empty queue", lambda: not self.slurm.live())
@@ -50,7 +51,8 @@ class SweepSlurm(StartedStudyCase):
         table = self.here(study)
         for number, end_by in enumerate((signal.SIGKILL, signal.SIGHUP, signal.SIGTERM)):
             name = f"out{number}"
-            process = self.start(study, "--output", name, "--slurm", "", "--runs-per-task", "3")
+            # One task at a time, so that there are others when the first has runs.
+            process = self.start(study, "--output", name, "--slurm", "", "--runs-per-task", "3", "--jobs", "1")
             self.wait_for_runs(name, 1, process)
             self.slurm.hold()
             process.send_signal(end_by)
