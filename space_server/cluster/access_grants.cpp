@@ -161,7 +161,7 @@ void AccessGrants::TryToOpen(Side& side, std::uint64_t tick)
   }
 }
 
-// Ends a grant. Afterwards its key seals refusals only, and whoever comes late finds no run.
+// Ends a grant. Afterwards its key seals refusals only, and a holder who comes late finds no run.
 void AccessGrants::End(Side& side, std::uint64_t tick, const std::string& why)
 {
   side.ended = why;
@@ -418,7 +418,8 @@ void AccessGrants::Leave(std::uint64_t tick, const std::string& error, double pa
   {
     if (!side->is_over && side->views != nullptr) side->views->WaitUntilRead(left());
     if (side->leave != nullptr) side->leave->WaitUntilRead(left());
-    // Whoever asked for something, and reads no Leave, learns by these that it was done, or that the run has ended.
+    // A client that sent a request reads no Leave. These messages tell it that the request was done, or that the run
+    // has ended.
     if (side->statuses != nullptr) side->statuses->WaitUntilRead(left());
     if (side->replies != nullptr) side->replies->WaitUntilRead(left());
   }
