@@ -35,6 +35,7 @@ constexpr auto kBrokenTime = 5s;       // time for the lease of a dead process t
 constexpr auto kStuckTime = 1s;        // time for another process to replace it
 // So long after the last tick the end of the run is to answer all processes that leave: all receive each answer.
 constexpr auto kOneAnswerTime = 200ms;
+constexpr auto kOneAnswerTimeOfProcess = 20ms;  // more for each process
 
 // Another process has ended the run.
 class EndedByOthers : public BusError
@@ -471,7 +472,8 @@ void ServerProgram::Close()
   status_.Publish(ServerTick{result.ticks, experiment_.max_clock, result.real_time_factor});
   PublishEnd();
   wait_.Begin(Clock::now());
-  if (!BeginsAgain()) answers_from_ = Clock::now() + kOneAnswerTime;
+  if (!BeginsAgain())
+    answers_from_ = Clock::now() + kOneAnswerTime + session_.NotLeft().size() * kOneAnswerTimeOfProcess;
   for (std::vector<std::string> there = session_.NotLeft(); !there.empty(); there = session_.NotLeft())
   {
     CheckFailures();

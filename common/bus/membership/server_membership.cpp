@@ -98,10 +98,10 @@ ServerMembership::Verdict ServerMembership::Heard(const JoinMessage& join)
   // A process repeats its Join until the run begins, and again after the last tick while it waits for others.
   const bool is_known =
       !is_another && member.incarnation == join.incarnation && (!join.ready || member.phase != Phase::kJoined);
-  // It may wait for a process that has left, because it missed the Leave.
-  if (is_known || (is_another && join.incarnation > 0))
+  // It may wait for a process that has left, because it missed the Leave. One that has left itself waits for nobody.
+  if ((is_known && !member.done_at) || (is_another && join.incarnation > 0))
     for (const auto& [name, other] : members_)
-      if (other.done_at && name != join.name) news_.answers.push_back({run_, *other.done_at, name, other.process, ""});
+      if (other.done_at && name != join.name) Answer({run_, *other.done_at, name, other.process, ""});
   if (is_known) return Verdict::kNothingNew;
   if (is_another)
   {
@@ -119,6 +119,18 @@ ServerMembership::Verdict ServerMembership::Heard(const JoinMessage& join)
   return Verdict::kTaken;
 }
 
+// All processes receive each answer. So what many ask for, and what one asks for again, goes once.
+void ServerMembership::Answer(const LeaveMessage& answer)
+{
+  const auto same = [&](const LeaveMessage& other)
+  { return other.name == answer.name && other.process == answer.process; };
+  const auto waits = std::ranges::find_if(news_.answers, same);
+  if (waits == news_.answers.end())
+    news_.answers.push_back(answer);
+  else
+    *waits = answer;
+}
+
 void ServerMembership::Heard(const LeaveMessage& leave)
 {
   const auto found = members_.find(leave.name);
@@ -128,7 +140,7 @@ void ServerMembership::Heard(const LeaveMessage& leave)
   const bool is_unheard = found != members_.end() && !is_of_run && awaits_ && !found->second.HasLeft() &&
                           !found->second.replaced.contains(leave.process);
   if (is_unheard) return;
-  news_.answers.push_back({leave.run, leave.tick, "space server", leave.process, ""});
+  Answer({leave.run, leave.tick, "space server", leave.process, ""});
   if (!is_of_run) return;
   if (!leave.error.empty())
     return On(leave.name, Event::kFailed, fmt::format("{} failed at tick {}: {}", leave.name, leave.tick, leave.error));

@@ -121,6 +121,7 @@ public:
 private:
   void On(const std::string& name, Event event, const std::string& failure = {});
   bool MayJoinAs(const Member& member, const JoinMessage& join) const;
+  void Answer(const LeaveMessage& answer);
 
   const std::uint64_t run_;
   bool awaits_ = false;

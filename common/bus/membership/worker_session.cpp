@@ -6,6 +6,7 @@
 #include "common/bus/membership/worker_session.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <new>
 #include <utility>
 
@@ -32,6 +33,11 @@ using Action = WorkerMembership::Action;
 constexpr auto kPatience = 1s;          // until the process says what it waits for
 constexpr auto kPatienceForNext = 15s;  // how long observers wait for another space server
 constexpr auto kLook = 100ms;           // period of the check whether the server exists, while this process leaves
+
+// The period in which a process looks for what it waits for, at first and after a while. Hundreds of processes that
+// look often would take the processor from those they wait for.
+constexpr Clock::duration kShortestWait = 2ms;
+constexpr Clock::duration kLongestWait = 20ms;
 
 // Returns the text of an experiment without its seed. Its elements may come from several files.
 std::string WithoutSeed(std::string_view xml)
@@ -259,7 +265,7 @@ void WorkerSession::WaitUntil(const std::function<bool()>& met, const std::funct
         said = text;
       }
     std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, 2ms);
+    changed_.wait_for(lock, std::clamp((Clock::now() - start) / 8, kShortestWait, kLongestWait));
   }
 }
 

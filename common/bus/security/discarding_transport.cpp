@@ -1,9 +1,22 @@
 #include "common/bus/security/discarding_transport.h"
 
+#include <cstring>
+
 #include <fmt/format.h>
 
 namespace swarmanoid
 {
+namespace
+{
+
+std::uint64_t AddressAndPort(const rtps::Locator_t& locator)
+{
+  std::uint32_t address = 0;
+  std::memcpy(&address, locator.address + sizeof locator.address - sizeof address, sizeof address);
+  return std::uint64_t{address} << 32U | locator.port;
+}
+
+}  // namespace
 
 rtps::Locator_t NowhereLocator()
 {
@@ -38,16 +51,22 @@ void DiscardingTransport::select_locators(rtps::LocatorSelector& selector) const
   }
 }
 
-bool DiscardingTransport::HasDestination(rtps::LocatorsIterator& first, const rtps::LocatorsIterator& last)
-{
-  while (first != last && *first == NowhereLocator()) ++first;
-  return first != last;
-}
-
 bool DiscardingTransport::Send(Socket& socket, Datagram datagram, rtps::LocatorsIterator& first,
                                rtps::LocatorsIterator& last, const Deadline& deadline)
 {
-  return !HasDestination(first, last) || SendDatagram(socket, datagram, first, last, deadline);
+  while (first != last && *first == NowhereLocator()) ++first;
+  if (first == last) return true;
+  if (!AnnouncementPace::IsAnnouncement(datagram)) return Write(socket, datagram, first, last, deadline);
+  transport::LocatorList due;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto now = AnnouncementPace::Clock::now();
+    for (; first != last; ++first)
+      if (!pace_.IsEarly(datagram, {&socket, AddressAndPort(*first)}, now)) due.push_back(*first);
+  }
+  transport::Locators begin(due.begin());
+  transport::Locators end(due.end());
+  return due.empty() || Write(socket, datagram, begin, end, deadline);
 }
 
 void DiscardingTransport::Refuse(const std::string& what, const rtps::Locator_t& remote)

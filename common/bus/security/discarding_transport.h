@@ -1,5 +1,5 @@
-// The transport of the bus: it reports datagrams that CheckRtps refuses, and discards messages to readers without an
-// address.
+// The transport of the bus: it reports datagrams that CheckRtps refuses, discards messages to readers without an
+// address, and leaves out announcements that are too frequent.
 //
 // A reader that shares memory has no address. Its memory cannot be opened if its process has just ended. Then Fast DDS
 // (2.9) writes to it over the network, and tries for ever to send the fragments of a message that has no destination.
@@ -11,6 +11,7 @@
 #include <mutex>
 #include <string>
 
+#include "common/bus/dds/announcement_pace.h"
 #include "common/bus/dds/filter_transport.h"
 #include "common/bus/security/datagram_signatures.h"
 
@@ -54,15 +55,21 @@ public:
   transport::TransportDescriptorInterface* get_configuration() override { return &descriptor_; }
   void select_locators(rtps::LocatorSelector& selector) const override;
   bool Send(Socket& socket, Datagram datagram, rtps::LocatorsIterator& first, rtps::LocatorsIterator& last,
-            const Deadline& deadline) override;
+            const Deadline& deadline) final;
   void Refuse(const std::string& what, const rtps::Locator_t& remote) override;
 
 protected:
-  // Skips the locators at the beginning that are no addresses. Returns false if no other locator is left.
-  static bool HasDestination(rtps::LocatorsIterator& first, const rtps::LocatorsIterator& last);
+  // Writes a datagram to its destinations.
+  virtual bool Write(Socket& socket, Datagram datagram, rtps::LocatorsIterator& first, rtps::LocatorsIterator& last,
+                     const Deadline& deadline)
+  {
+    return SendDatagram(socket, datagram, first, last, deadline);
+  }
 
 private:
   DiscardingTransportDescriptor descriptor_;
+  std::mutex mutex_;       // guards the next one
+  AnnouncementPace pace_;  // of this process
 };
 
 }  // namespace swarmanoid

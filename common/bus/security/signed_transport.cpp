@@ -27,16 +27,6 @@ public:
   {
   }
 
-  bool Send(Socket& socket, Datagram datagram, rtps::LocatorsIterator& first, rtps::LocatorsIterator& last,
-            const Deadline& deadline) override
-  {
-    if (!HasDestination(first, last)) return true;
-    std::vector<char> room;
-    Datagram with_signature;
-    if (!Try([&] { with_signature = descriptor_.signatures->Sign(datagram, room); })) return false;
-    return SendDatagram(socket, with_signature, first, last, deadline);
-  }
-
   void Receive(transport::TransportReceiverInterface& next, Datagram datagram, const rtps::Locator_t& local,
                const rtps::Locator_t& remote) override
   {
@@ -49,6 +39,16 @@ public:
                     remote);
     if (checked.is_of_stranger) checked.datagram = Check(checked.datagram, kStrangerLimits, remote);
     if (!checked.datagram.empty()) Pass(next, checked.datagram, local, remote);
+  }
+
+protected:
+  bool Write(Socket& socket, Datagram datagram, rtps::LocatorsIterator& first, rtps::LocatorsIterator& last,
+             const Deadline& deadline) override
+  {
+    std::vector<char> room;
+    Datagram with_signature;
+    if (!Try([&] { with_signature = descriptor_.signatures->Sign(datagram, room); })) return false;
+    return DiscardingTransport::Write(socket, with_signature, first, last, deadline);
   }
 
 private:
