@@ -265,7 +265,7 @@ void WorkerSession::WaitUntil(const std::function<bool()>& met, const std::funct
         said = text;
       }
     std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, std::clamp((Clock::now() - start) / 8, kShortestWait, kLongestWait));
+    changed_.wait_for(lock, std::clamp((Clock::now() - start) / 32, kShortestWait, kLongestWait));
   }
 }
 

@@ -56,13 +56,14 @@ bool DiscardingTransport::Send(Socket& socket, Datagram datagram, rtps::Locators
 {
   while (first != last && *first == NowhereLocator()) ++first;
   if (first == last) return true;
-  if (!AnnouncementPace::IsAnnouncement(datagram)) return Write(socket, datagram, first, last, deadline);
+  const std::string what = DiscoveryPace::WhatMayBeLeftOut(datagram, descriptor_.spreads);
+  if (what.empty()) return Write(socket, datagram, first, last, deadline);
   transport::LocatorList due;
   {
     const std::lock_guard lock(mutex_);
-    const auto now = AnnouncementPace::Clock::now();
+    const auto now = DiscoveryPace::Clock::now();
     for (; first != last; ++first)
-      if (!pace_.IsEarly(datagram, {&socket, AddressAndPort(*first)}, now)) due.push_back(*first);
+      if (!pace_.IsEarly(what, {&socket, AddressAndPort(*first)}, now)) due.push_back(*first);
   }
   transport::Locators begin(due.begin());
   transport::Locators end(due.end());

@@ -1,5 +1,5 @@
 // The transport of the bus: it reports datagrams that CheckRtps refuses, discards messages to readers without an
-// address, and leaves out announcements that are too frequent.
+// address, and leaves out what DiscoveryPace says.
 //
 // A reader that shares memory has no address. Its memory cannot be opened if its process has just ended. Then Fast DDS
 // (2.9) writes to it over the network, and tries for ever to send the fragments of a message that has no destination.
@@ -11,9 +11,9 @@
 #include <mutex>
 #include <string>
 
-#include "common/bus/dds/announcement_pace.h"
 #include "common/bus/dds/filter_transport.h"
 #include "common/bus/security/datagram_signatures.h"
+#include "common/bus/security/discovery_pace.h"
 
 namespace swarmanoid
 {
@@ -35,15 +35,16 @@ struct DatagramListener
 
 struct DiscardingTransportDescriptor : transport::ChainingTransportDescriptor
 {
-  DiscardingTransportDescriptor(std::shared_ptr<transport::TransportDescriptorInterface> udp,
+  DiscardingTransportDescriptor(std::shared_ptr<transport::TransportDescriptorInterface> udp, bool over_a_network,
                                 std::shared_ptr<DatagramListener> its_listener)
-      : ChainingTransportDescriptor(std::move(udp)), listener(std::move(its_listener))
+      : ChainingTransportDescriptor(std::move(udp)), spreads(over_a_network), listener(std::move(its_listener))
   {
   }
 
   transport::TransportInterface* create_transport() const override;
   std::uint32_t max_message_size() const override { return maxMessageSize; }
 
+  const bool spreads;  // the run is on several machines
   const std::shared_ptr<DatagramListener> listener;
 };
 
@@ -68,8 +69,8 @@ protected:
 
 private:
   DiscardingTransportDescriptor descriptor_;
-  std::mutex mutex_;       // guards the next one
-  AnnouncementPace pace_;  // of this process
+  std::mutex mutex_;    // guards the next one
+  DiscoveryPace pace_;  // of this process
 };
 
 }  // namespace swarmanoid

@@ -79,9 +79,11 @@ private:
 }  // namespace
 
 SignedTransportDescriptor::SignedTransportDescriptor(std::shared_ptr<transport::TransportDescriptorInterface> udp,
+                                                     bool over_a_network,
                                                      std::shared_ptr<DatagramSignatures> its_signatures,
                                                      std::shared_ptr<DatagramListener> its_listener)
-    : DiscardingTransportDescriptor(std::move(udp), std::move(its_listener)), signatures(std::move(its_signatures))
+    : DiscardingTransportDescriptor(std::move(udp), over_a_network, std::move(its_listener)),
+      signatures(std::move(its_signatures))
 {
   maxMessageSize -= kSignatureBytes;
 }

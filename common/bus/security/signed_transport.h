@@ -11,7 +11,7 @@ namespace swarmanoid
 
 struct SignedTransportDescriptor : DiscardingTransportDescriptor
 {
-  SignedTransportDescriptor(std::shared_ptr<transport::TransportDescriptorInterface> udp,
+  SignedTransportDescriptor(std::shared_ptr<transport::TransportDescriptorInterface> udp, bool over_a_network,
                             std::shared_ptr<DatagramSignatures> its_signatures,
                             std::shared_ptr<DatagramListener> its_listener);
 

@@ -172,10 +172,10 @@ Bus::Impl::Impl(const BusOptions& options, const std::string& name, const std::s
   datagrams->malformed = [this](const std::string& what, const std::string& address) { RefuseDatagram(what, address); };
   datagrams->forged = [this](const GuidPrefix& member, const std::string& sender) { RefuseDatagram(member, sender); };
   if (insecure)
-    qos.transport().user_transports.push_back(std::make_shared<DiscardingTransportDescriptor>(udp, datagrams));
+    qos.transport().user_transports.push_back(std::make_shared<DiscardingTransportDescriptor>(udp, spreads, datagrams));
   else
-    qos.transport().user_transports.push_back(
-        std::make_shared<SignedTransportDescriptor>(udp, std::make_shared<DatagramSignatures>(key_ring), datagrams));
+    qos.transport().user_transports.push_back(std::make_shared<SignedTransportDescriptor>(
+        udp, spreads, std::make_shared<DatagramSignatures>(key_ring), datagrams));
 
   rtps::BuiltinAttributes& builtin = qos.wire_protocol().builtin;
   // Each process on a machine takes the next free port. Fast DDS goes on without one that it does not find, deaf.
