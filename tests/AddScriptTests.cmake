@@ -2,7 +2,9 @@
 # again. It adds a test for each case.
 foreach(source IN LISTS scripts list_cases)
   if("${source}" IS_NEWER_THAN "${cases}")
-    execute_process(COMMAND ${python} ${list_cases} ${scripts} OUTPUT_FILE ${cases} COMMAND_ERROR_IS_FATAL ANY)
+    # An interrupt here must not leave a list without all cases, which would pass for the newest.
+    execute_process(COMMAND ${python} ${list_cases} ${scripts} OUTPUT_FILE ${cases}.new COMMAND_ERROR_IS_FATAL ANY)
+    file(RENAME ${cases}.new ${cases})
     break()
   endif()
 endforeach()
