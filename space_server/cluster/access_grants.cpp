@@ -305,6 +305,8 @@ std::string AccessGrants::Revoke(const ControlRequestMessage& request, std::uint
 void AccessGrants::Forward(Side& side, ControlRequestMessage request, std::uint64_t tick)
 {
   if (!side.ended.empty()) return Refuse(side, request, tick, side.ended);
+  // The holder has not heard a status of the run yet, and asks again when it has.
+  if (request.run == 0) return;
   if (request.run != session_.World().run) return Refuse(side, request, tick, "it was asked of another run");
   if (side.grant.role != GrantRole::kOperator)
     return Refuse(side, request, tick, fmt::format("{} may only look", side.grant.Name()));

@@ -16,7 +16,6 @@ namespace
 {
 
 constexpr auto kRepeat = 250ms;
-constexpr auto kStatusTime = 1s;
 constexpr double kLate_s = 0.5;
 // The time for another space server to resume the run after the first has gone. A busy machine needs this long.
 constexpr auto kRestartTime = 15s;
@@ -54,7 +53,6 @@ std::optional<ControlReplyMessage> ControlClient::Ask(const ControlOrder& order,
   const auto patience = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout_s));
   std::unique_lock lock(mutex_);
   got_on_ = Clock::now();
-  const auto start = Clock::now();
   bool is_gone = false;  // the space server has left
   // The bus holds locks when it calls us, and takes the same locks for these questions. So our lock must be released
   // meanwhile.
@@ -72,9 +70,10 @@ std::optional<ControlReplyMessage> ControlClient::Ask(const ControlOrder& order,
   };
   while (without_lock([this] { return requests_.Readers() == 0 || replies_.Writers() == 0; }))
     if (answered_.wait_for(lock, 2ms), !is_patient()) return std::nullopt;
-  // A grant that has ended carries no status of the run, and every request is refused.
+  // The status says which run it is. A grant that has ended carries none, and every request is refused. A server whose
+  // grant has not ended waits until we ask with the run.
   const bool by_grant = bus_.Internals().grant.has_value();
-  while (run_ == 0 && !(by_grant && Clock::now() - start > kStatusTime))
+  while (run_ == 0 && !by_grant)
     if (answered_.wait_for(lock, 2ms), !is_patient()) return std::nullopt;
   reply_.reset();
   request.number = ++number_;
@@ -83,13 +82,14 @@ std::optional<ControlReplyMessage> ControlClient::Ask(const ControlOrder& order,
   // again.
   while (!reply_ && is_patient())
   {
+    if (request.run == 0) request.run = run_;
     const bool is_heard = without_lock(
         [&]
         {
           requests_.Write(request);
           return requests_.Readers() > 0;
         });
-    answered_.wait_for(lock, kRepeat, [this] { return reply_.has_value(); });
+    answered_.wait_for(lock, kRepeat, [&] { return reply_.has_value() || (request.run == 0 && run_ != 0); });
     is_gone = !is_heard && status_ && status_->phase != RunStatus::Phase::kFinished;
     // If a request ends the run, the run may be gone before its answer arrives.
     if (reply_ || is_heard) continue;
