@@ -56,16 +56,16 @@ enum class ColumnMistake
 inline ColumnMistake SpreadColumns(const char* from, std::size_t count, std::uint32_t uniform,
                                    std::vector<double>& poses)
 {
-  const auto single = static_cast<std::size_t>(std::popcount(uniform));
-  std::size_t entities = 0;
-  if (uniform != 0)
+  if (uniform == 0)
   {
-    if (single >= kPoseColumns || count <= single || (count - single) % (kPoseColumns - single) != 0)
-      return ColumnMistake::kLength;
-    entities = (count - single) / (kPoseColumns - single);
+    poses.resize(count);
+    return CopyFinite(poses.data(), from, count) ? ColumnMistake::kNone : ColumnMistake::kNotFinite;
   }
-  poses.resize(uniform == 0 ? count : kPoseColumns * entities);
-  if (uniform == 0) return CopyFinite(poses.data(), from, count) ? ColumnMistake::kNone : ColumnMistake::kNotFinite;
+  const auto single = static_cast<std::size_t>(std::popcount(uniform));
+  if (single >= kPoseColumns || count <= single || (count - single) % (kPoseColumns - single) != 0)
+    return ColumnMistake::kLength;
+  const std::size_t entities = (count - single) / (kPoseColumns - single);
+  poses.resize(kPoseColumns * entities);
   bool finite = true;
   for (std::size_t k = 0; k < kPoseColumns; ++k)
   {
