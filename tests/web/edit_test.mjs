@@ -349,7 +349,8 @@ const tests = {
     const template = (name) => readFileSync(join(SWARMANOID_CONFIGS, "../user/templates/script", name), "utf8").replaceAll("@name@", "avoid");
     mkdirSync(join(folder, "controllers/avoid"), { recursive: true });
     const script = write("controllers/avoid/avoid.lua", template("controller.lua.in"));
-    const experiment = template("experiment.xml.in").replaceAll("@language@", "lua").replace("../controllers", "controllers").replaceAll("@ending@", "lua");
+    const experiment = template("experiment.xml.in").replaceAll("@language@", "lua").replace("../controllers", "controllers").replaceAll("@ending@", "lua")
+      .replace("<maxclock>600<", "<maxclock>60000<"); // on a busy machine a minute may be over before the page shows the run
     const editor = await edit("diffusion_10", { change: () => experiment, noise, bypassCSP: true });
     const { page } = editor;
     await page.click('header button:text-is("Script")');
@@ -429,4 +430,6 @@ const tests = {
   },
 };
 
-await runCases(tests, { signal: "SIGKILL", state: "JSON.stringify(swarmanoid.editor)?.slice(0, 600)" });
+const STATE = `JSON.stringify(swarmanoid.editor ?? { at: location.href, run: swarmanoid.run, control: swarmanoid.control, tick: swarmanoid.tick,
+  drawn: swarmanoid.drawn, banner: document.querySelector(".banner")?.textContent }).slice(0, 600)`;
+await runCases(tests, { signal: "SIGKILL", state: STATE });
