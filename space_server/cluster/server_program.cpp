@@ -30,6 +30,7 @@ using namespace std::chrono_literals;
 
 constexpr auto kPeriod = 50ms;         // period of the main thread while no event comes
 constexpr double kLastViewTime_s = 1;  // observers may be stopped
+constexpr auto kSayAgain = 300ms;      // between lines that say which processes are awaited
 constexpr auto kWorldAgain = 3s;       // between announcements to processes that have not joined
 constexpr auto kBrokenTime = 5s;       // time for the lease of a dead process to end
 constexpr auto kStuckTime = 1s;        // time for another process to replace it
@@ -394,8 +395,8 @@ void ServerProgram::SayWorldAgain()
 
 void ServerProgram::Collect()
 {
-  const auto start = Clock::now();
-  world_said_ = start;
+  world_said_ = Clock::now();
+  auto said_at = world_said_;
   std::string said;
   while (true)
   {
@@ -406,8 +407,9 @@ void ServerProgram::Collect()
     if (missing.empty() && lockstep_.AllMatched()) return;
     SayWorldAgain();
     const std::string text = Joined(missing);
-    if (text != said && !text.empty() && (Clock::now() - start > 300ms || !said.empty()))
+    if (text != said && !text.empty() && Clock::now() - said_at > kSayAgain)
     {
+      said_at = Clock::now();
       Say(fmt::format("waiting for {} (experiment '{}', domain {}) …", text, experiment_.name, options_.bus.domain));
       status_.Publish(ServerState{ServerState::kWaiting, text});
       said = text;

@@ -5,8 +5,9 @@
 // incarnation than the newest one of its part is dropped.
 #include "common/bus/membership/tick_gate.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
+#include <span>
 
 #include "common/bus/bus.h"
 
@@ -82,9 +83,10 @@ std::vector<std::string> TickGate::Missing() const
 
 std::string Joined(const std::vector<std::string>& names)
 {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
+  constexpr std::size_t kMostNamed = 6;
+  const std::size_t named = names.size() <= kMostNamed + 1 ? names.size() : kMostNamed;
+  const std::string text = fmt::to_string(fmt::join(std::span(names).first(named), ", "));
+  return named == names.size() ? text : fmt::format("{} and {} others", text, names.size() - named);
 }
 
 }  // namespace swarmanoid

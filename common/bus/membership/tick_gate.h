@@ -57,7 +57,7 @@ private:
   std::uint64_t tick_ = 0;
 };
 
-// Returns the names with commas: "a, b, c".
+// Returns the names with commas: "a, b, c". Of many names it counts the last ones: "a, b, c, d, e, f and 58 others".
 std::string Joined(const std::vector<std::string>& names);
 
 }  // namespace swarmanoid

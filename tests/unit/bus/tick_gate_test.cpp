@@ -110,5 +110,17 @@ TEST(TickGate, WhatCameATickEarlyHasToComeAgainFromWhoeverReplacesItsSender)
   EXPECT_THAT(gate.Missing(), testing::ElementsAre("engine", "host"));
 }
 
+TEST(JoinedNames, AreCountedIfTheyAreMany)
+{
+  std::vector<std::string> names;
+  EXPECT_EQ(Joined(names), "");
+  names = {"a"};
+  EXPECT_EQ(Joined(names), "a");
+  names = {"a", "b", "c", "d", "e", "f", "g"};
+  EXPECT_EQ(Joined(names), "a, b, c, d, e, f, g");
+  names.emplace_back("h");
+  EXPECT_EQ(Joined(names), "a, b, c, d, e, f and 2 others");
+}
+
 }  // namespace
 }  // namespace swarmanoid
