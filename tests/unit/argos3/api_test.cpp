@@ -1,8 +1,11 @@
 // Tests the API of ARGoS3: its mathematics beside Eigen's, its texts and elements, its random numbers.
+#include <argos3/core/simulator/entity/embodied_entity.h>
+#include <argos3/core/simulator/physics_engine/physics_engine.h>
 #include <argos3/core/utility/configuration/argos_configuration.h>
 #include <argos3/core/utility/datatypes/byte_array.h>
 #include <argos3/core/utility/datatypes/color.h>
 #include <argos3/core/utility/math/quaternion.h>
+#include <argos3/core/utility/math/ray3.h>
 #include <argos3/core/utility/math/rng.h>
 #include <gtest/gtest.h>
 
@@ -392,6 +395,48 @@ TEST(Argos3Api, IdsOfDistributedEntitiesTranslateBothWays)
   EXPECT_EQ(translation.Argos3Id("footbot_6"), "7");
   EXPECT_EQ(translation.Argos3Id("fb_one"), "fb_one");
   EXPECT_EQ(translation.OurId("wall_1"), "wall_1");
+}
+
+TEST(Argos3Api, BoxesMeetIfTheyOverlapInEachDirection)
+{
+  const SBoundingBox box{{0, 0, 0}, {1, 2, 3}};
+  EXPECT_TRUE(box.Intersects({{0.9, 1.9, 2.9}, {5, 5, 5}}));
+  EXPECT_TRUE(box.Intersects({{-5, -5, -5}, {0.1, 0.1, 0.1}}));
+  EXPECT_TRUE(box.Intersects({{0.2, 0.2, 0.2}, {0.3, 0.3, 0.3}})) << "one within the other";
+  for (const auto& apart : {CVector3(1.1, 0, 0), CVector3(0, 2.1, 0), CVector3(0, 0, 3.1)})
+    for (const Real side : {1., -1.})
+    {
+      const SBoundingBox other{box.MinCorner + side * apart, box.MaxCorner + side * apart};
+      EXPECT_FALSE(box.Intersects(other)) << apart << side;
+      EXPECT_FALSE(other.Intersects(box)) << apart << side;
+    }
+}
+
+TEST(Argos3Api, DistancesAlongARayArePartsOfItsLength)
+{
+  const CRay3 ray(CVector3(1, 1, 1), CVector3(1, 5, 1));
+  EXPECT_EQ(ray.GetLength(), 4);
+  EXPECT_EQ(ray.GetDistance(0), 0);
+  EXPECT_EQ(ray.GetDistance(0.25), 1);
+  EXPECT_EQ(ray.GetDistance(-0.5), 2);
+}
+
+TEST(Argos3Api, TheRateOfEnginesIsTheInverseOfTheirTick)
+{
+  const Real before = CPhysicsEngine::GetSimulationClockTick();
+  CPhysicsEngine::SetSimulationClockTick(0.25);
+  EXPECT_EQ(CPhysicsEngine::GetInverseSimulationClockTick(), 4);
+  CPhysicsEngine::SetSimulationClockTick(before);
+}
+
+TEST(Argos3Api, CategoriesOfRandomNumbersExistUntilTheyAreRemoved)
+{
+  EXPECT_FALSE(CRandom::ExistsCategory("of this test"));
+  EXPECT_TRUE(CRandom::CreateCategory("of this test", 3));
+  EXPECT_TRUE(CRandom::ExistsCategory("of this test"));
+  EXPECT_FALSE(CRandom::ExistsCategory("of another test"));
+  CRandom::RemoveCategory("of this test");
+  EXPECT_FALSE(CRandom::ExistsCategory("of this test"));
 }
 
 }  // namespace

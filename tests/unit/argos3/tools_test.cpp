@@ -169,4 +169,30 @@ TEST(Argos3Tools, SocketsCarryByteArrays)
   EXPECT_THROW(CTCPSocket().Connect("localhost", 1), CARGoSException);
 }
 
+TEST(Argos3Tools, GraysAreTenthsOfWhite)
+{
+  const CColor grays[] = {CColor::GRAY10, CColor::GRAY20, CColor::GRAY30, CColor::GRAY40, CColor::GRAY50,
+                          CColor::GRAY60, CColor::GRAY70, CColor::GRAY80, CColor::GRAY90};
+  for (int tenths = 1; tenths <= 9; ++tenths)
+  {
+    const CColor& gray = grays[tenths - 1];
+    EXPECT_NEAR(gray.GetRed(), 25.5 * tenths, 0.6) << tenths;
+    EXPECT_EQ(gray.GetGreen(), gray.GetRed()) << tenths;
+    EXPECT_EQ(gray.GetBlue(), gray.GetRed()) << tenths;
+    EXPECT_EQ(gray.GetAlpha(), 255) << tenths;
+  }
+}
+
+TEST(Argos3Tools, ARateTellsMicrosecondsAndSeconds)
+{
+  const CRate rate(10);
+  std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  const UInt64 before = rate.ElapsedUS();
+  const Real seconds = rate.ElapsedS();
+  const UInt64 after = rate.ElapsedUS();
+  EXPECT_GE(before, 2'000U);
+  EXPECT_GE(seconds, 1e-6 * static_cast<Real>(before) * (1 - 1e-9));
+  EXPECT_LE(seconds, 1e-6 * static_cast<Real>(after) * (1 + 1e-9));
+}
+
 }  // namespace

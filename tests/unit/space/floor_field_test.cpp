@@ -4,9 +4,11 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <set>
 
 #include "common/space/floor_field.h"
 #include "common/space/floor_fields.h"
+#include "common/space/space.h"
 
 namespace swarmanoid
 {
@@ -234,6 +236,24 @@ TEST(FloorFields, CollectRunsOfChangedCells)
   for (const std::uint32_t cell : {3U, 4U, 6U}) AddCell(cells, cell, static_cast<float>(cell));
   EXPECT_EQ(cells.runs, (std::vector<std::uint32_t>{3, 2, 6, 1}));
   EXPECT_EQ(cells.values, (std::vector<float>{3, 4, 6}));
+}
+
+TEST(FloorFields, AreInTheHashWithTheirCells)
+{
+  const Experiment experiment = TwoFields();
+  const auto hash = [&](std::vector<std::uint32_t> runs, std::vector<float> values)
+  {
+    CSwarmanoidSpace space(experiment);
+    SpaceState state;
+    state.fields = {std::move(runs), std::move(values)};
+    space.Apply(state);
+    return space.Hash();
+  };
+  const std::set<std::uint64_t> hashes{hash({}, {}),        hash({3, 1}, {2}),         hash({4, 1}, {2}),
+                                       hash({3, 1}, {4}),   hash({3, 2}, {2, 2}),      hash({3, 1, 5, 1}, {2, 2}),
+                                       hash({203, 1}, {2}), hash({3, 1, 6, 1}, {2, 2})};
+  EXPECT_EQ(hashes.size(), 8U);
+  EXPECT_EQ(hash({3, 1}, {2}), hash({3, 1}, {2}));
 }
 
 }  // namespace
