@@ -205,8 +205,8 @@ TEST_F(CheckpointFile, OfMoreOrFewerControllerHostsIsSharedOut)
   const Experiment experiment = ExperimentOf(5);
   Checkpoint checkpoint = SmallCheckpoint();
   checkpoint.origin = OriginOf(experiment);
-  checkpoint.parts[2] = HostPart(0, {{{{0, 2}, "radio"}}, {{0, "a"}, {1, "b"}}});
-  checkpoint.parts.push_back(HostPart(1, {{{{0, 2}, "radio"}}, {{2, "c"}, {3, "d"}, {4, "e"}}}));
+  checkpoint.parts[2] = HostPart(0, {{{{1, 2}, "radio"}, {{3, 2}, "lamp"}}, {{0, "a"}, {1, "b"}}});
+  checkpoint.parts.push_back(HostPart(1, {{{{1, 2}, "radio"}, {{3, 2}, "lamp"}}, {{2, "c"}, {3, "d"}, {4, "e"}}}));
   checkpoint.snapshot.poses = InARow(5);
   WriteCheckpoint(path_, checkpoint);
   // The number of hosts is the same, but their robots are near each other now.
@@ -226,7 +226,7 @@ TEST_F(CheckpointFile, OfMoreOrFewerControllerHostsIsSharedOut)
   for (std::size_t host = 0; host < 3; ++host)
   {
     const HostState state = StateOf(three, host);
-    EXPECT_EQ(state.sensors.at({0, 2}), "radio");
+    EXPECT_EQ(state.sensors, (decltype(state.sensors){{{1, 2}, "radio"}, {{3, 2}, "lamp"}}));
     EXPECT_FALSE(state.robots.empty());
     all.insert(state.robots.begin(), state.robots.end());
   }
