@@ -70,6 +70,12 @@ TEST(AccessGrants, TicketsComeBackFromTheirText)
     EXPECT_EQ(read->address, "127.0.0.1");
     EXPECT_EQ(read->key, KeyOfByte(7));
     EXPECT_EQ(read->experiment, "two, with a comma");
+    EXPECT_EQ(read->discovery_server, "");
+    token.discovery_server = "10.77.0.1:21900";
+    const auto by_server = TokenOfText(TextOf(token));
+    ASSERT_TRUE(by_server.has_value());
+    EXPECT_EQ(by_server->discovery_server, "10.77.0.1:21900");
+    EXPECT_EQ(by_server->address, "10.77.0.1");
   }
 }
 
