@@ -98,7 +98,7 @@ ServerMembership::Verdict ServerMembership::Heard(const JoinMessage& join)
   // A process repeats its Join until the run begins, and again after the last tick while it waits for others.
   const bool is_known =
       !is_another && member.incarnation == join.incarnation && (!join.ready || member.phase != Phase::kJoined);
-  // It may wait for a process that has left, because it missed the Leave. One that has left itself waits for nobody.
+  // It may wait for a process that has left, because it missed the Leave. A process that has left does not wait.
   if ((is_known && !member.done_at) || (is_another && join.incarnation > 0))
     for (const auto& [name, other] : members_)
       if (other.done_at && name != join.name) Answer({run_, *other.done_at, name, other.process, ""});

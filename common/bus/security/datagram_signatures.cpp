@@ -12,6 +12,7 @@
 #include <cstring>
 
 #include "common/bus/bus.h"
+#include "common/bus/security/submessages.h"
 
 namespace swarmanoid
 {
@@ -20,20 +21,14 @@ namespace
 
 constexpr char kKind = static_cast<char>(0x9d);  // a kind that RTPS leaves to vendors (DDSI-RTPS 2.2, 8.3.3.2.3)
 constexpr char kLittleEndian = 1;
-constexpr char kPad = 0x01;
-constexpr char kInfoTimestamp = 0x09;
-constexpr char kInfoDestination = 0x0e;
-constexpr char kData = 0x15;
 constexpr char kDataFragment = 0x16;
 constexpr std::size_t kSaltAt = 4;  // in a signature
 constexpr std::size_t kNumberAt = kSaltAt + kSaltBytes;
 constexpr std::size_t kCodeAt = kNumberAt + sizeof(std::uint64_t);
 constexpr std::size_t kPrefixAt = 8;  // in a datagram
 constexpr std::size_t kHeaderBytes = kPrefixAt + sizeof(GuidPrefix);
-constexpr std::size_t kWriterAt = 12;          // in a submessage with data, with its header
 constexpr unsigned char kOfDdsItself = 0xc0U;  // in the last byte of the id of a writer or reader
 constexpr char kFirst[4] = {kKind, kLittleEndian, static_cast<char>(DatagramSignatures::kBytes - 4), 0};
-constexpr std::array<char, 4> kAnnouncer{0, 1, 0, static_cast<char>(0xc2)};  // announces a process
 // The process answers this announcement.
 constexpr std::array<char, 4> kAnswered{0x0f, static_cast<char>(0x80), 24, 0};
 // The submessage that Fast DDS appends to each datagram on the network, and fills in below our transport.
@@ -54,27 +49,6 @@ std::size_t StatisticsAtEnd(std::span<const char> datagram)
   if (datagram.size() < kHeaderBytes + kStatisticsBytes) return 0;
   const char* const end = datagram.data() + datagram.size();
   return std::memcmp(end - kStatisticsBytes, kStatisticsFirst, sizeof kStatisticsFirst) == 0 ? kStatisticsBytes : 0;
-}
-
-// Returns the first submessage. It has its own length, or extends to the end.
-std::span<const char> FirstSubmessage(std::span<const char> bytes)
-{
-  const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(bytes[at]); };
-  const bool is_little_endian = (byte(1) & 1U) != 0;
-  const std::size_t length = is_little_endian ? byte(2) | (byte(3) << 8U) : byte(3) | (byte(2) << 8U);
-  const bool may_be_empty = bytes[0] == kPad || bytes[0] == kInfoTimestamp;
-  if (length == 0 && !may_be_empty) return bytes;
-  return bytes.first(std::min(bytes.size(), 4 + ((length + 3) & ~std::size_t{3})));
-}
-
-bool StandsAt(std::span<const char> bytes, std::span<const char> what, std::size_t at)
-{
-  return at + what.size() <= bytes.size() && std::ranges::equal(what, bytes.subspan(at, what.size()));
-}
-
-bool IsAnnouncement(std::span<const char> submessage)
-{
-  return submessage[0] == kData && StandsAt(submessage, kAnnouncer, kWriterAt);
 }
 
 // `code`: the buffer for the new code, or the expected code.
@@ -170,11 +144,11 @@ DatagramSignatures::Checked DatagramSignatures::CheckUnsigned(std::span<const ch
   {
     const std::span<const char> submessage = FirstSubmessage(rest);
     // Every process may address a member.
-    if (submessage[0] != kInfoDestination)
+    if (submessage[0] != kInfoDestinationKind)
       if (const auto member = FindMember(submessage)) return Forged(*member);
     // A name could be split over fragments. No process needs fragments to describe itself.
-    const bool is_cut = submessage[0] == kDataFragment && submessage.size() >= kWriterAt + 4 &&
-                        (static_cast<unsigned char>(submessage[kWriterAt + 3]) & kOfDdsItself) == kOfDdsItself;
+    const bool is_cut = submessage[0] == kDataFragment && submessage.size() >= kWriterOfDataAt + 4 &&
+                        (static_cast<unsigned char>(submessage[kWriterOfDataAt + 3]) & kOfDdsItself) == kOfDdsItself;
     if (is_cut && !members_.empty()) return Forged(members_.begin()->first);
     if (has_key && IsAnnouncement(submessage) && !MayAnnounce(sender)) return {.datagram = {}, .is_one_too_many = true};
     rest = rest.subspan(submessage.size());
