@@ -1,5 +1,4 @@
 // The `swarmanoid` command: runs experiments, and everything around them.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -79,7 +78,6 @@ int main(int count, char** arguments)
       static_cast<int>(given.size()), given.data(),
       [&](CLI::App& app)
       {
-        app.require_subcommand(1);
         const std::string word = words.size() > 1 ? words[1] : "";
         if (!IsSubCommand(word)) LoadCommands();
         if (!IsSubCommand(word)) LoadStudies();

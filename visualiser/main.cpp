@@ -1,7 +1,5 @@
 // The program that shows an experiment through one renderer: one of the experiment's own visualisations, which every
 // tick waits for, or one attached from outside, which never slows the run.
-#include <CLI/CLI.hpp>
-
 #include <fmt/format.h>
 #include <thread>
 
@@ -190,10 +188,5 @@ int main(int count, char** arguments)
   return RunWorker(
       program, count, arguments, VisualiserOptionTable,
       [&](const WorkerSettings& settings, const BusOptions& bus) { return Run(settings, parameters, bus); },
-      [&](CLI::App& app)
-      {
-        app.add_option("PARAMETERS", parameters, "With --attach: the renderer's parameters, as NAME=VALUE");
-        if (const std::string kind = AttachedKind(count, arguments); !kind.empty())
-          AddRendererOptions(app, FindRenderer(kind), parameters);
-      });
+      [&](CLI::App& app) { AddParametersOf(AttachedKind(count, arguments), app, parameters); });
 }

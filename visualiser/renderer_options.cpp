@@ -114,6 +114,12 @@ void AddRendererOptions(CLI::App& app, const PluginDescription& renderer, std::v
             ->group(group);
 }
 
+void AddParametersOf(const std::string& kind, CLI::App& app, std::vector<std::string>& parameters)
+{
+  app.add_option("PARAMETERS", parameters, "With --attach: the renderer's parameters, as NAME=VALUE");
+  if (!kind.empty()) AddRendererOptions(app, FindRenderer(kind), parameters);
+}
+
 RenderConfiguration ConfigureRenderer(const PluginDescription& renderer, const std::vector<std::string>& parameters)
 {
   auto node = std::make_shared<ConfigurationNode>();

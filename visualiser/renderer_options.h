@@ -25,6 +25,9 @@ const PluginDescription& FindRenderer(std::string_view kind);
 // parameter called `format` are flags too: --csv. A name that the command itself uses is left out.
 void AddRendererOptions(CLI::App& app, const PluginDescription& renderer, std::vector<std::string>& parameters);
 
+// Adds the words "name=value" of a renderer, and its options as above if its kind is not empty.
+void AddParametersOf(const std::string& kind, CLI::App& app, std::vector<std::string>& parameters);
+
 // Makes the configuration of a renderer from words "name=value". Throws ConfigurationError with the allowed values.
 RenderConfiguration ConfigureRenderer(const PluginDescription& renderer, const std::vector<std::string>& parameters);
 

@@ -34,6 +34,7 @@ constexpr std::array kOwnLibraries{"reproducible_math",
                                    "space",
                                    "physics_engine",
                                    "engines",
+                                   "rigid_bodies",
                                    "controller_host_role",
                                    "space_server_role",
                                    "argos3"};

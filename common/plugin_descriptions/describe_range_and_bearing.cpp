@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+
+#include "common/plugin_descriptions/antenna.h"
 #include "common/plugin_descriptions/device_tables.h"
 #include "common/plugin_descriptions/shared_channel_parameters.h"
 #include "common/plugins/noise_parameters.h"
@@ -27,7 +30,7 @@ void DescribeRangeAndBearing()
   const ParameterSpec antenna{"antenna",
                               kNumber,
                               "m",
-                              "0.1",
+                              fmt::format("{}", kAntennaHeight_m),
                               "Height of the antennas above the bases of robots, for the receivers and what they hear.",
                               0,
                               1e6};

@@ -23,7 +23,7 @@
 #include "common/program/file_descriptor.h"
 #include "common/run/access/dds_environment.h"
 #include "common/run/access/run_directory.h"
-#include "engine_worker/engines/fused_libraries.h"
+#include "engine_worker/engines/rigid_bodies/fused_libraries.h"
 #include "launcher/showing.h"
 #include "launcher/system/command_process.h"
 #include "launcher/system/installation.h"

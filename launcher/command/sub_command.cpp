@@ -57,6 +57,7 @@ bool IsSubCommand(const std::string& word)
 
 void AddSubCommands(CLI::App& app, int& exit_code, const std::string& word)
 {
+  app.require_subcommand(1);
   // Every sub-command reads experiments of ARGoS3, too.
   ReadArgos3Experiments(RehearseArgos3);
   // The options of all sub-commands take a quarter of the start of a run.

@@ -45,10 +45,11 @@ class Simplest(LauncherTest):
     def test_with_one_robot(self):
         self.compare(1, "--no-visualisers")
 
-    def test_a_run_in_one_process_loads_no_dds(self):
-        """It takes half of the start. The command that starts a cluster does without it, too, and without the libraries of studies."""
+    def test_a_run_in_one_process_loads_no_dds_and_no_solver(self):
+        """DDS takes half of the start. The command that starts a cluster does without it, too, and without the libraries of studies."""
         needed = {"--single-process": {"libswarmanoid_space"}, "--controller-hosts=1": {"libswarmanoid_run"}}
-        unneeded = re.compile(r"lib(fastrtps|fastdds|fastcdr|crypto|ssl|sqlite3|nlopt|swarmanoid_(bus|launcher_bus|space_server_node|commands|studies))$")
+        unneeded = re.compile(r"lib(fastrtps|fastdds|fastcdr|crypto|ssl|sqlite3|nlopt|ode|box2d.*|"
+                              r"swarmanoid_(bus|launcher_bus|space_server_node|commands|studies|rigid_bodies))$")
         for way, libraries in needed.items():
             with self.subTest(way=way):
                 run = self.run_it("run", DIFFUSION, "--ticks", 2, "--quiet", "--no-visualisers", "--output", self.folder / way[2:8], way,

@@ -219,7 +219,9 @@ class Groups:
         self.control("move-engine", "ground/1")
         self.control("resume")
         self.assert_same(run, 280, expected)
-        self.assertNotIn("all processes start again", run.stderr)
+        # Only a process that is killed while it holds a lock of DDS makes all others start again.
+        if "while it held shared memory" not in run.stderr:
+            self.assertNotIn("all processes start again", run.stderr)
 
 
 class GroupsOfDynamics2d(Groups, SplitTest):

@@ -1,5 +1,5 @@
 """role_libraries.py PROGRAM...: the program of a role loads the libraries of its own role, and of no other. The command, which is the
-first of the programs, starts without DDS: it loads the library launcher_bus when it needs that, and other sub-commands than `run` from commands.
+first of the programs, starts without DDS: it loads the library launcher_bus when it needs that, and other sub-commands than `run` from commands. No program starts with ODE or Box2D.
 
 What a process must know of the others' engines, devices and renderers to read an experiment is in common/plugin_descriptions.
 """
@@ -18,8 +18,9 @@ OF_ROLE = {
     "controller_host": {"controller_host_role"},
     "visualiser": {"render"},
 }
-# Solvers belong to the engines. Renderers that need graphics or films load theirs when one is made. Assimp is loaded for mesh files.
-SOLVERS = {"libode", "libbox2d"}
+# The library of engines of rigid bodies is loaded when one is made, and so are renderers that need graphics or films. Assimp is loaded for
+# mesh files.
+SOLVERS = re.compile(r"lib(ode|box2d|swarmanoid_rigid_bodies)")
 LATE = re.compile(r"lib(fastrtps|fastdds|fastcdr|crypto|ssl|sqlite3|nlopt|swarmanoid_(bus|launcher_bus|space_server_node|commands|studies))$")
 GRAPHICS = re.compile(r"lib(GL|EGL|OpenGL|epoxy|glfw|Ogre|imgui|SDL|X11|avcodec|avformat|avutil|swscale)|libassimp")
 
@@ -34,7 +35,7 @@ def loaded(program):
 
 
 def mistakes_of_command(program):
-    for name in sorted(filter(LATE.match, loaded(program))):
+    for name in sorted(name for name in loaded(program) if LATE.match(name) or SOLVERS.match(name)):
         yield f"{os.path.basename(program)} loads {name} at its start"
 
 
@@ -46,11 +47,8 @@ def mistakes_of(program):
         yield f"{role} loads libswarmanoid_{name}.so, which is not of its role"
     for name in sorted(OF_ROLE[role] - ours):
         yield f"{role} does not load libswarmanoid_{name}.so, its role"
-    solvers = {solver for solver in SOLVERS if any(name.startswith(solver) for name in libraries)}
-    for name in sorted(solvers ^ (SOLVERS if role == "engine_worker" else set())):
-        yield f"{role} {'loads' if name in solvers else 'does not load'} {name}"
-    for name in sorted(filter(GRAPHICS.match, libraries)):
-        yield f"{role} loads {name}"
+    for name in sorted(name for name in libraries if GRAPHICS.match(name) or SOLVERS.match(name)):
+        yield f"{role} loads {name} at its start"
 
 
 def main():

@@ -34,9 +34,14 @@ protected:
     engine.id = "ground";
     ControllerConfiguration& controller = experiment_.controllers.emplace_back();
     controller.id = "c";
-    const TConfigurationTree tree(ReadXml("<range_and_bearing><range>2</range></range_and_bearing>", "test.xml"));
     controller.sensors = {{"footbot_proximity", "generic_footbot_proximity", {}},
-                          {"range_and_bearing", "generic_range_and_bearing", tree}};
+                          {"range_and_bearing", "generic_range_and_bearing", {}}};
+    SetReceiver("range='2'");
+  }
+  void SetReceiver(const std::string& attributes)
+  {
+    experiment_.controllers[0].sensors[1].tree =
+        TConfigurationTree(ReadXml("<range_and_bearing " + attributes + "/>", "test.xml"));
   }
   void Add(EntityKind kind, const Vector3& position, const Vector3& size, double yaw = 0)
   {
@@ -113,6 +118,24 @@ TEST_F(MarksTest, LinksAreThoseInRangeAndInSightOfWhoSends)
   const auto links = Marks({.rays = {}, .bodies = {}, .links = {0, 1, 2, 3, 4, 5}})["links"];
   EXPECT_EQ(PairsOf(links["both"]), (Pairs{{0, 3}, {0, 4}, {3, 4}}));
   EXPECT_EQ(PairsOf(links["one"]), (Pairs{{0, 1}, {3, 2}, {4, 1}, {4, 2}}));
+}
+
+TEST_F(MarksTest, LinksAreThoseOfTheReceiversAntennaAndSight)
+{
+  AddFootbot(1, 1);
+  AddFootbot(2, 1);
+  Add(EntityKind::kBlock, {1.5, 1, 0.15}, {0.1, 1, 0.3});
+  Send(0);
+  const auto links = [&] { return PairsOf(Marks({.rays = {}, .bodies = {}, .links = {0, 1}})["links"]["one"]); };
+  EXPECT_EQ(links(), Pairs{}) << "the block is higher than the antennas";
+  space_.reset();
+  SetReceiver("range='2' antenna='0.31'");
+  Send(0);
+  EXPECT_EQ(links(), (Pairs{{0, 1}}));
+  space_.reset();
+  SetReceiver("range='2' line_of_sight='false'");
+  Send(0);
+  EXPECT_EQ(links(), (Pairs{{0, 1}}));
 }
 
 TEST_F(MarksTest, LinksAreTheSameWhoeverIsAskedFirst)

@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "common/mesh/convex_hull.h"
-#include "common/plugin_descriptions/antenna.h"
 #include "common/plugins/catalogue.h"
 #include "common/space/attributes.h"
 #include "common/space/space.h"
@@ -22,22 +21,23 @@ using Json = nlohmann::ordered_json;
 
 double Rounded(double value) { return std::round(value * 1e4) / 1e4; }
 
-// Returns the range within which a robot hears others; 0 if its controller has no such sensor, or one without a range.
-double RangeOf(const Experiment& experiment, const EntityConfiguration& robot)
+// Returns the sensor of range and bearing of a robot with its parameters, or nullopt.
+std::optional<Parameters> ReceiverOf(const Experiment& experiment, const EntityConfiguration& robot)
 {
   const ControllerConfiguration* controller = experiment.FindController(robot.controller);
-  if (controller == nullptr) return 0;
+  if (controller == nullptr) return std::nullopt;
   for (const DeviceConfiguration& sensor : controller->sensors)
   {
     if (sensor.type != "range_and_bearing") continue;
     const PluginDescription* description =
         PluginCatalogue::Instance().Find(PluginKind::kSensor, sensor.type, sensor.implementation);
-    const bool has_range =
-        description != nullptr && std::any_of(description->parameters.begin(), description->parameters.end(),
-                                              [](const ParameterSpec& spec) { return spec.name == "range"; });
-    if (has_range) return Parameters(sensor.tree, description->parameters).Number("range");
+    // The sensors of other libraries may have none of these parameters.
+    const auto has = [&](std::string_view name)
+    { return std::ranges::find(description->parameters, name, &ParameterSpec::name) != description->parameters.end(); };
+    if (description != nullptr && has("range") && has("antenna") && has("line_of_sight"))
+      return Parameters(sensor.tree, description->parameters);
   }
-  return 0;
+  return std::nullopt;
 }
 
 // Returns 2, then both ends of each edge.
@@ -59,17 +59,27 @@ MarksWriter::MarksWriter(const CSwarmanoidSpace& space)
   {
     const CSwarmanoidSpaceEntity& entity = space.GetEntity(e);
     if (!IsRobot(entity.GetKind()) || AttributeOffset(entity.GetKind(), "message") < 0) continue;
-    const double range = RangeOf(space.GetExperiment(), entity.GetConfiguration());
-    antennas_[e] = {entity.SlotOf("message"), range};
-    longest_range_ = std::max(longest_range_, range);
+    Antenna& antenna = antennas_[e].emplace();
+    antenna.message = entity.SlotOf("message");
+    if (const auto receiver = ReceiverOf(space.GetExperiment(), entity.GetConfiguration()))
+    {
+      antenna.range = receiver->Number("range");
+      antenna.height = receiver->Number("antenna");
+      antenna.needs_sight = receiver->Boolean("line_of_sight");
+    }
+    longest_reach_ = std::max(longest_reach_, antenna.range + 2 * antenna.height);
   }
 }
 
 bool MarksWriter::IsPresent(std::uint32_t entity) const { return entity < space_.Size() && space_.IsPresent(entity); }
 
-Vector3 MarksWriter::PlaceOf(std::uint32_t robot) const
+bool MarksWriter::Hears(std::uint32_t receiver, std::uint32_t sender)
 {
-  return space_.GetPose(robot).Apply({0, 0, kAntennaHeight_m});
+  const Antenna& own = *antennas_[receiver];
+  if (own.range <= 0 || space_.Attributes()[antennas_[sender]->message] == 0) return false;
+  const Vector3 from = space_.GetPose(sender).Apply({0, 0, own.height});
+  const Vector3 to = space_.GetPose(receiver).Apply({0, 0, own.height});
+  return (to - from).norm() <= own.range && !(own.needs_sight && query_.IsOccluded(from, to, receiver, sender));
 }
 
 std::string MarksWriter::Text(const MarksRequest& wanted)
@@ -138,22 +148,14 @@ std::string MarksWriter::Text(const MarksRequest& wanted)
   std::vector<char> asked(space_.Size());
   for (const std::uint32_t robot : wanted.links)
     if (IsPresent(robot) && antennas_[robot]) asked[robot] = 1;
-  const auto sends = [&](const Antenna& antenna) { return space_.Attributes()[antenna.message] != 0; };
-  for (std::uint32_t robot = 0; longest_range_ > 0 && robot < asked.size(); ++robot)
+  for (std::uint32_t robot = 0; longest_reach_ > 0 && robot < asked.size(); ++robot)
   {
     if (!asked[robot]) continue;
-    const Vector3 from = PlaceOf(robot);
-    const Antenna& own = *antennas_[robot];
-    const std::vector<std::uint32_t> near =
-        query_.FindWithin(space_.GetPose(robot).position, longest_range_ + 2 * kAntennaHeight_m);
-    for (const std::uint32_t other : near)
+    for (const std::uint32_t other : query_.FindWithin(space_.GetPose(robot).position, longest_reach_))
     {
       if (other == robot || !antennas_[other] || (asked[other] && other < robot)) continue;
-      const Vector3 to = PlaceOf(other);
-      const double distance = (to - from).norm();
-      const bool hears = sends(*antennas_[other]) && distance <= own.range;
-      const bool is_heard = sends(own) && distance <= antennas_[other]->range;
-      if ((!hears && !is_heard) || query_.IsOccluded(from, to, robot, other)) continue;
+      const bool hears = Hears(robot, other), is_heard = Hears(other, robot);
+      if (!hears && !is_heard) continue;
       Json& list = hears && is_heard ? both : one;
       list.push_back(is_heard ? robot : other);
       list.push_back(is_heard ? other : robot);

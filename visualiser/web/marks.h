@@ -28,17 +28,20 @@ private:
   struct Antenna
   {
     std::uint32_t message = 0;  // index of the attribute
-    double range = 0;           // m: the range of its receiver; 0: it does not receive
+    // Parameters of its receiver:
+    double range = 0;   // m; 0: it does not receive
+    double height = 0;  // m, of the antennas above the bases of robots
+    bool needs_sight = true;
   };
 
   bool IsPresent(std::uint32_t entity) const;
-  Vector3 PlaceOf(std::uint32_t robot) const;
+  bool Hears(std::uint32_t receiver, std::uint32_t sender);
 
   const CSwarmanoidSpace& space_;
   SpaceQuery query_;
   CollisionModels models_;
   std::vector<std::optional<Antenna>> antennas_;  // by entity
-  double longest_range_ = 0;
+  double longest_reach_ = 0;                      // m, between the bases of robots
   std::vector<ProximityRay> rays_;
   ScannerRays scanner_rays_;
   std::vector<CollisionBody> bodies_;

@@ -402,4 +402,6 @@ std::string CDynamics2dEngine::StatusText() const
                      world_->GripCount(), world_->GroupCount(), world_->IsolatedCount(), owned_.size());
 }
 
+CPhysicsEngine* MakeDynamics2d() { return new CDynamics2dEngine; }
+
 }  // namespace swarmanoid

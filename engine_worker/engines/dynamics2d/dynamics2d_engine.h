@@ -101,4 +101,7 @@ private:
   std::vector<std::uint32_t> footbot_of_entity_;
 };
 
+// Makes an engine. The processes that need it find it by its name (register_engines.cpp).
+extern "C" CPhysicsEngine* MakeDynamics2d();
+
 }  // namespace swarmanoid

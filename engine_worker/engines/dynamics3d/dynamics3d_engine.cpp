@@ -339,4 +339,6 @@ std::string CDynamics3dEngine::StatusText() const
                      groups_->ContactCount(), GroupCount(), links_->Size(), world_->SleeperCount(), FreeRobotCount());
 }
 
+CPhysicsEngine* MakeDynamics3d() { return new CDynamics3dEngine; }
+
 }  // namespace swarmanoid

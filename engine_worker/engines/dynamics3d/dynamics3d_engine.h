@@ -80,4 +80,7 @@ private:
   std::vector<const CSwarmanoidSpaceEntity*> holes_;
 };
 
+// Makes an engine. The processes that need it find it by its name (register_engines.cpp).
+extern "C" CPhysicsEngine* MakeDynamics3d();
+
 }  // namespace swarmanoid

@@ -425,6 +425,14 @@ TEST(MistakesTogether, AHullFillsItsBoxAndIsSharedByThoseThatAreAlike)
   EXPECT_LT((hull->centre - Vector3(-0.05, -0.1, -0.15)).norm(), 1e-12);
 }
 
+TEST(MistakesTogether, AHullThatCannotBeIsNamedWhereverItIsWanted)
+{
+  const std::string block = "' position='.5,.5,.5' size='.1,.1,.1' corners='0,0,0; 1,0,0; 0,1,0'/>";
+  const ExperimentText text{
+      .size = "1,1,1", .optimization = "3D", .arena = "<block id='a" + block + "<block id='b" + block, .engines = ""};
+  EXPECT_EQ(LoadExperimentText(text.Text(), "test.xml", "/nowhere", {}).errors.size(), 2U);
+}
+
 TEST(MistakesTogether, AMissingFileIsNamed)
 {
   const LoadedExperiment loaded = LoadExperimentFile("/nowhere/at_all.xml");

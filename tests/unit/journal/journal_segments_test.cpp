@@ -266,6 +266,36 @@ TEST_F(JournalSegmentsTest, NothingIsDroppedThatFollowsAStateThatCameLate)
   EXPECT_FALSE(fs::exists(Path())) << "the oldest is deleted";
 }
 
+// A process may save its part of a state when ticks after it, and segments after its other parts, are written already.
+TEST_F(JournalSegmentsTest, NoPartOfAStateIsDroppedThatLaterPartsMakeWhole)
+{
+  for (const bool snapshot_first : {true, false})
+  {
+    JournalWriter journal(Path(), StartOfRun(), false, {1024, kParts});
+    for (std::uint64_t tick = 0; tick < 1000; ++tick)
+    {
+      journal.AddTick(NoisyState(tick), false, {}, {});
+      const std::uint64_t saved = tick - tick % kPeriod;
+      const bool is_first = tick % kPeriod == 0;
+      if (saved == 0 || (!is_first && tick % kPeriod != kPeriod / 2)) continue;
+      if (is_first == snapshot_first)
+      {
+        SpaceSnapshot snapshot;
+        snapshot.tick = saved;
+        snapshot.poses = NoisyState(saved).poses;
+        journal.Add(snapshot);
+      }
+      else
+      {
+        for (const std::string& part : kParts) journal.Add(saved, {part, {'s'}});
+      }
+      journal.Flush();
+      ASSERT_TRUE(is_first || JournalReader(Path()).CheckpointAt(saved, kParts)) << saved;
+    }
+    EXPECT_FALSE(fs::exists(Path())) << "the oldest is deleted";
+  }
+}
+
 TEST_F(JournalSegmentsTest, WithoutABudgetEverythingIsInOneFile)
 {
   {

@@ -148,24 +148,28 @@ TEST(KinematicWorld, StillBodiesStayWhereTheyAreToTheLastBit)
 TEST(KinematicWorld, NothingPassesThroughThinWallsOrOthersAtTenTimesTheUsualSpeed)
 {
   // At 3 m/s a robot moves 0.3 m a tick, against a sheet of 1 cm and against an oncoming robot of the same speed.
-  for (int start = 0; start < 20; ++start)
-  {
-    KinematicWorld world;
-    const auto footbot = world.AddModel(FootbotModel());
-    const double from = -0.5 - 0.013 * start;
-    const auto a = world.AddBody(footbot, {from, 0.004 * start, RotorOf(0)});
-    const auto c = world.AddBody(footbot, {from, 1, RotorOf(0)});
-    const auto d = world.AddBody(footbot, {0.6, 1, RotorOf(kPi)});
-    world.AddStatic(Wall(0, 0, 0.01, 0.6));
-    world.Start(kArea);
-    for (const auto body : {a, c, d}) world.SetTwist(body, {3, 0, 0});
-    for (int tick = 0; tick < 20; ++tick)
+  // Ahead and sideways are the same.
+  for (const bool sideways : {false, true})
+    for (int start = 0; start < 20; ++start)
     {
-      world.Advance(kTick, 1);
-      ASSERT_LT(world.Poses().x[a], 0) << start << " " << tick;
-      ASSERT_LT(world.Poses().x[c], world.Poses().x[d]) << start << " " << tick;
+      const double turned = sideways ? -kPi / 2 : 0;
+      KinematicWorld world;
+      const auto footbot = world.AddModel(FootbotModel());
+      const double from = -0.5 - 0.013 * start;
+      const auto a = world.AddBody(footbot, {from, 0.004 * start, RotorOf(turned)});
+      const auto c = world.AddBody(footbot, {from, 1, RotorOf(turned)});
+      const auto d = world.AddBody(footbot, {0.6, 1, RotorOf(kPi + turned)});
+      world.AddStatic(Wall(0, 0, 0.01, 0.6));
+      world.Start(kArea);
+      for (const auto body : {a, c, d}) world.SetTwist(body, {sideways ? 0.0 : 3.0, sideways ? 3.0 : 0.0, 0});
+      for (int tick = 0; tick < 20; ++tick)
+      {
+        world.Advance(kTick, 1);
+        ASSERT_LT(world.Poses().x[a], 0) << start << " " << tick;
+        ASSERT_LT(world.Poses().x[c], world.Poses().x[d]) << start << " " << tick;
+      }
+      EXPECT_GT(world.Poses().x[a], -0.3) << "it did move";
     }
-  }
 }
 
 TEST(KinematicWorld, AThousandRobotsPushedIntoACornerStayApartAndFinite)

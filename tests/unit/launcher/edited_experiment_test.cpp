@@ -98,6 +98,9 @@ TEST(EditedExperiment, KeepsTheOtherAnglesOfAHeading)
 {
   EditedExperiment experiment =
       Open(File("    <block id='b' size='1, 1, 1' position='2, 2, .5' orientation='0, 10, 20'/>\n"));
+  const std::string before = experiment.Text();
+  experiment.Place({{kFirst, std::nullopt, 20.0}});
+  EXPECT_EQ(experiment.Text(), before) << "it has this heading";
   experiment.Place({{kFirst, std::nullopt, -30.0}});
   EXPECT_THAT(experiment.Text(), HasSubstr("orientation='0, 10, -30'"));
 }

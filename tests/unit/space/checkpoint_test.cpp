@@ -13,6 +13,7 @@
 
 #include "common/checkpoint/checkpoint_format.h"
 #include "common/checkpoint/host_state.h"
+#include "common/experiment/urdf_kind.h"
 #include "common/messages/assignment.h"
 #include "common/plugins/elf_file.h"
 #include "common/plugins/plugin_library.h"
@@ -271,6 +272,38 @@ TEST(LibraryBuilds, KnowSwarmanoidItselfAndNameWhatDiffers)
   EXPECT_EQ(DifferenceOfBuilds({{"terrain/hills.png", "1"}}, {{"terrain/hills.png", "2"}}),
             "another content of the file 'terrain/hills.png'");
   EXPECT_EQ(DifferenceOfBuilds({{"libwave.so", ""}}, {{"libwave.so", "2"}}), "") << "it was elsewhere";
+}
+
+TEST(LibraryBuilds, HaveTheFileOfARobotAndTheMeshesThatCollide)
+{
+  const test::TemporaryFolder folder;
+  folder.Write("wedge.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  std::string links =
+      "<link name='base'><inertial><mass value='1'/></inertial><collision><geometry><mesh filename='wedge.obj'/>"
+      "</geometry></collision></link>";
+  for (const std::string side : {"0.1", "-0.1"})
+    links += "<link name='wheel" + side +
+             "'><collision><origin rpy='1.5707963267948966 0 0'/><geometry><cylinder radius='0.05' length='0.02'/>"
+             "</geometry></collision></link><joint name='joint" +
+             side + "' type='continuous'><parent link='base'/><child link='wheel" + side + "'/><origin xyz='0 " + side +
+             " 0'/><axis xyz='0 1 0'/></joint>";
+  const std::string file = folder.Write("cart.urdf", "<robot name='cart'>" + links + "</robot>");
+  for (const Diagnostic& mistake : RegisterUrdfKind("cart_of_checkpoint", file)) FAIL() << mistake.Text();
+  Experiment experiment = SmallExperiment();
+  experiment.folder = folder.Path();
+  experiment.entity_kinds = {{"cart_of_checkpoint", ""}};
+  const auto builds = [&]
+  {
+    std::map<std::string, std::string> by_name;
+    for (const LibraryBuild& build : LibraryBuildsOf(experiment)) by_name[build.name] = build.build;
+    return by_name;
+  };
+  const auto before = builds();
+  ASSERT_EQ(before.size(), 3U);
+  folder.Write("wedge.obj", "v 0 0 0\nv 2 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  const auto after = builds();
+  EXPECT_EQ(after.at("cart.urdf"), before.at("cart.urdf"));
+  EXPECT_NE(after.at("wedge.obj"), before.at("wedge.obj"));
 }
 
 TEST(LibraryBuilds, SwarmanoidIsAllOfItsLibrariesThatTheStateDependsOn)

@@ -220,6 +220,9 @@ TEST(Viewpoints, CameraIsANumberOrAPlaceOrTop)
   EXPECT_THROW(camera("5"), ConfigurationError);
   EXPECT_THROW(camera("above"), ConfigurationError);
   EXPECT_THROW(camera("1,2"), ConfigurationError);
+  ExpectNear(camera("1, 2, 3.5 /90,-20,0 ").position, {1, 2, 3.5});
+  EXPECT_THROW(camera("1,2,3 m/90,-20,0"), ConfigurationError);
+  EXPECT_THROW(camera("1,2,3/90,-20,0 x"), ConfigurationError);
 }
 
 }  // namespace

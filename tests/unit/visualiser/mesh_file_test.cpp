@@ -1,6 +1,7 @@
 // Meshes of users' files: what of them is drawn, where, in which colours, and that no file ends the program.
 #include "visualiser/scene/mesh_file.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <unistd.h>
 
@@ -219,6 +220,29 @@ TEST_F(MeshFileTest, FinerMeshesAreSimplifiedAndKeepTheirSizeAndTheirOutside)
   EXPECT_EQ(Simplified(ball, ball.Triangles()).indices, ball.indices);
 }
 
+TEST_F(MeshFileTest, OnlyVerticesOfOneCellBecomeOne)
+{
+  // Two triangles far from each other, and a third as small as a cell, which vanishes.
+  Mesh mesh;
+  for (const Eigen::Vector3f& corner : {Eigen::Vector3f(0, 0, 0),
+                                        {1, 0, 0},
+                                        {0, 1, 0},
+                                        {9, 0, 0},
+                                        {9, 1, 0},
+                                        {8, 0, 0},
+                                        {4, 0, 0},
+                                        {4, 1e-4F, 0},
+                                        {4, 0, 1e-4F}})
+  {
+    mesh.indices.push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
+    mesh.vertices.push_back({corner, Eigen::Vector3f::UnitZ()});
+  }
+  const Mesh simple = Simplified(mesh, 2);
+  ASSERT_EQ(simple.Triangles(), 2U);
+  for (std::size_t i = 0; i < simple.indices.size(); ++i)
+    EXPECT_EQ(simple.vertices[simple.indices[i]].position, mesh.vertices[i].position) << i;
+}
+
 // It is a space with one entity of an own mesh.
 class WithMesh : public MeshFileTest
 {
@@ -249,6 +273,22 @@ TEST_F(WithMesh, AnObjectIsDrawnAsItAloneAndFillsItsBody)
   Scene scene(World(EntityKind::kBlock, {0.4, 0.2, 0.1}, "mesh=\"meshes/rock.glb\"").Space());
   scene.Update({});
   ASSERT_EQ(scene.Items().size(), 2U) << "the floor, and the mesh in place of the box";
+  const Eigen::AlignedBox3f box = FilledBy(scene, scene.Items()[1]);
+  EXPECT_TRUE(box.min().isApprox(Eigen::Vector3f(0.8F, 0.9F, 0.45F), 1e-4F)) << box.min().transpose();
+  EXPECT_TRUE(box.max().isApprox(Eigen::Vector3f(1.2F, 1.1F, 0.55F), 1e-4F)) << box.max().transpose();
+}
+
+TEST_F(WithMesh, OfWhichOnlyTheFullDetailIsFineIsStretchedByIt)
+{
+  // A ball of so many triangles that what is drawn from afar is simpler, and so smaller.
+  const Mesh ball = Ball(60);
+  std::string file;
+  for (const MeshVertex& vertex : ball.vertices)
+    file += fmt::format("v {} {} {}\n", vertex.position.x(), vertex.position.y(), vertex.position.z());
+  for (std::size_t i = 0; i < ball.indices.size(); i += 3)
+    file += fmt::format("f {} {} {}\n", ball.indices[i] + 1, ball.indices[i + 1] + 1, ball.indices[i + 2] + 1);
+  Scene scene(World(EntityKind::kBlock, {0.4, 0.2, 0.1}, "mesh=\"" + Write(file, ".obj") + "\"").Space());
+  scene.Update({});
   const Eigen::AlignedBox3f box = FilledBy(scene, scene.Items()[1]);
   EXPECT_TRUE(box.min().isApprox(Eigen::Vector3f(0.8F, 0.9F, 0.45F), 1e-4F)) << box.min().transpose();
   EXPECT_TRUE(box.max().isApprox(Eigen::Vector3f(1.2F, 1.1F, 0.55F), 1e-4F)) << box.max().transpose();

@@ -104,6 +104,22 @@ TEST(Meshes, HeightTerrainBecomesASmoothSurfaceWithASkirt)
   EXPECT_FLOAT_EQ(box.min().z(), 0);
   EXPECT_FLOAT_EQ(box.max().x(), 2);
   EXPECT_FLOAT_EQ(box.max().y(), 1);
+  // A side stands at the edge that it faces, from the lowest height up to the surface, and is seen from outside.
+  const Mesh& mesh = model.levels[0];
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
+  {
+    const MeshVertex* corners[3];
+    for (std::size_t k = 0; k < 3; ++k) corners[k] = &mesh.vertices[mesh.indices[i + k]];
+    const Eigen::Vector3f cross =
+        (corners[1]->position - corners[0]->position).cross(corners[2]->position - corners[0]->position);
+    EXPECT_GT(cross.dot(corners[0]->normal), 0) << i / 3;
+    if (corners[0]->normal.z() > 0) continue;
+    for (const MeshVertex* corner : corners)
+    {
+      const Eigen::Vector3f edge(corner->normal.x() > 0 ? 2 : 0, corner->normal.y() > 0 ? 1 : 0, 0);
+      EXPECT_FLOAT_EQ((corner->position - edge).dot(corner->normal), 0) << i / 3;
+    }
+  }
 }
 
 TEST(Meshes, VoxelTerrainShowsItsSurfaceAlone)

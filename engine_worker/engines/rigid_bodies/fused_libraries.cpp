@@ -1,4 +1,4 @@
-#include "engine_worker/engines/fused_libraries.h"
+#include "engine_worker/engines/rigid_bodies/fused_libraries.h"
 
 #include <box2d/b2_circle_shape.h>
 #include <ode/ode.h>
