@@ -1,6 +1,8 @@
 #include "visualiser/web/certificate.h"
 
 #include <gmock/gmock.h>
+#include <openssl/pem.h>
+#include <openssl/x509v3.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -85,6 +87,29 @@ TEST_F(CertificateTest, IsKeptForTheNextRunAndOnlyForItsUser)
   EXPECT_NE(other.fingerprint, first.fingerprint);
   std::filesystem::permissions(file_, std::filesystem::perms::others_read, std::filesystem::perm_options::add);
   EXPECT_NE(OwnCertificate(file_, {"127.0.0.1"}).fingerprint, other.fingerprint);
+}
+
+TEST_F(CertificateTest, IsThatOfAServerAndOfNoAuthority)
+{
+  const std::string chain = OwnCertificate(file_, {"localhost", "127.0.0.1"}).chain;
+  BIO* const memory = BIO_new_mem_buf(chain.data(), static_cast<int>(chain.size()));
+  X509* const certificate = PEM_read_bio_X509(memory, nullptr, nullptr, nullptr);
+  BIO_free(memory);
+  ASSERT_NE(certificate, nullptr);
+  int is_critical = -1;
+  auto* const constraints =
+      static_cast<BASIC_CONSTRAINTS*>(X509_get_ext_d2i(certificate, NID_basic_constraints, &is_critical, nullptr));
+  ASSERT_NE(constraints, nullptr);
+  EXPECT_EQ(is_critical, 1);
+  EXPECT_EQ(constraints->ca, 0);
+  BASIC_CONSTRAINTS_free(constraints);
+  EXPECT_EQ(X509_check_purpose(certificate, X509_PURPOSE_SSL_SERVER, 0), 1);
+  EXPECT_EQ(X509_check_purpose(certificate, X509_PURPOSE_SSL_CLIENT, 0), 0);
+  EXPECT_EQ(X509_get_key_usage(certificate), static_cast<std::uint32_t>(KU_DIGITAL_SIGNATURE));
+  EXPECT_EQ(X509_check_host(certificate, "localhost", 0, 0, nullptr), 1);
+  EXPECT_EQ(X509_check_ip_asc(certificate, "127.0.0.1", 0), 1);
+  EXPECT_EQ(X509_check_host(certificate, "example.org", 0, 0, nullptr), 0);
+  X509_free(certificate);
 }
 
 TEST_F(CertificateTest, ABrokenFileIsMadeAnew)

@@ -273,6 +273,26 @@ TEST_F(WebServerTest, AClientThatShowsTheTokenLeavesItsFirstPlaceToOthers)
   EXPECT_TRUE(Eventually([&] { return server_->Clients() == 2; }));
 }
 
+TEST_F(WebServerTest, NoMoreClientsGetAPlaceByTheTokenThanThereAre)
+{
+  settings_.max_clients = 0;
+  settings_.max_holders = 1;
+  settings_.proof_time = 1h;
+  Start();
+  server_->SetGreeting(Shared(R"({"type": "world"})"));
+  BlockingClient first = Connect(), second = Connect();
+  ASSERT_EQ(first.Open(), 101U);
+  ASSERT_EQ(second.Open(), 101U);
+  const std::uint64_t first_id = first.ReadUntil("welcome")["client"];
+  const std::uint64_t second_id = second.ReadUntil("welcome")["client"];
+  server_->Admit(first_id);
+  server_->Admit(second_id);
+  first.ReadUntil("world");
+  second.Send("proof");
+  EXPECT_EQ(nlohmann::json::parse(second.Read())["type"], "echo") << "the second has heard nothing of the run";
+  EXPECT_EQ(server_->Clients(), 1U);
+}
+
 TEST_F(WebServerTest, AClientWithoutAPlaceThatDoesNotShowTheTokenIsSentAway)
 {
   settings_.max_clients = 0;

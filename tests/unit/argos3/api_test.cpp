@@ -7,6 +7,7 @@
 #include <argos3/core/utility/math/quaternion.h>
 #include <argos3/core/utility/math/ray3.h>
 #include <argos3/core/utility/math/rng.h>
+#include <argos3/plugins/robots/e-puck/control_interface/ci_epuck_ground_sensor.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -19,6 +20,7 @@
 #include <memory>
 #include <numbers>
 #include <sstream>
+#include <utility>
 
 #include "argos3/library/running.h"
 #include "common/control_interface/footbot/ci_footbot_proximity_sensor.h"
@@ -437,6 +439,17 @@ TEST(Argos3Api, CategoriesOfRandomNumbersExistUntilTheyAreRemoved)
   EXPECT_FALSE(CRandom::ExistsCategory("of another test"));
   CRandom::RemoveCategory("of this test");
   EXPECT_FALSE(CRandom::ExistsCategory("of this test"));
+}
+
+TEST(Argos3Api, GroundSensorsOfAnEPuckAreNumberedFromTheLeft)
+{
+  CCI_EPuckGroundSensor::SReadings readings;
+  readings.Left = 0.25;
+  readings.Center = 0.5;
+  readings.Right = 0.75;
+  for (std::size_t sensor = 0; sensor < 3; ++sensor)
+    EXPECT_EQ(std::as_const(readings)[sensor], 0.25 * static_cast<Real>(sensor + 1));
+  EXPECT_THROW(readings[3], CARGoSException);
 }
 
 }  // namespace
