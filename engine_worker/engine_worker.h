@@ -15,8 +15,8 @@ namespace swarmanoid
 
 // Adds dummy_engine (kinematics2d), dynamics2d and dynamics3d to the registry. Idempotent.
 void RegisterBuiltinEngines();
-// Loads the library of such an engine, if it is in one that is loaded with the first engine. The copies of this process
-// then have it.
+// Loads the library of such an engine now, if it is in one that is otherwise loaded with the first engine. Does nothing
+// for other labels, and if the library cannot be loaded: each run that makes the engine reports it.
 void LoadBuiltinEngine(const std::string& label);
 
 // Returns the engine that the configuration asks for. Throws ConfigurationError if it is not registered.

@@ -1,5 +1,6 @@
 #include "simulation/register_all.h"
 
+#include "common/experiment/experiment.h"
 #include "controller_host/device.h"
 #include "engine_worker/engine_worker.h"
 #include "visualiser/render.h"
@@ -12,6 +13,11 @@ void RegisterBuiltins()
   RegisterBuiltinEngines();
   RegisterBuiltinDevices();
   RegisterBuiltinRenderers();
+}
+
+void LoadEnginesOf(const Experiment& experiment)
+{
+  for (const EngineConfiguration& engine : experiment.engines) LoadBuiltinEngine(engine.tag);
 }
 
 }  // namespace swarmanoid

@@ -6,7 +6,12 @@
 namespace swarmanoid
 {
 
+struct Experiment;
+
 // Further calls do nothing.
 void RegisterBuiltins();
+
+// Loads the libraries of the experiment's built-in engines, so that copies of this process have them.
+void LoadEnginesOf(const Experiment& experiment);
 
 }  // namespace swarmanoid

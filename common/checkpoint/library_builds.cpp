@@ -24,20 +24,13 @@ namespace
 namespace fs = std::filesystem;
 
 // Those of Swarmanoid's libraries whose code the saved state depends on.
-constexpr std::array kOwnLibraries{"reproducible_math",
-                                   "common",
-                                   "mesh_files",
-                                   "plugin_descriptions",
-                                   "control_interface",
-                                   "behavior_toolkit",
-                                   "experiment",
-                                   "space",
-                                   "physics_engine",
-                                   "engines",
-                                   "rigid_bodies",
-                                   "controller_host_role",
-                                   "space_server_role",
-                                   "argos3"};
+constexpr std::array kOwnLibraries{"reproducible_math", "common",
+                                   "mesh_files",        "plugin_descriptions",
+                                   "control_interface", "behavior_toolkit",
+                                   "experiment",        "space",
+                                   "physics_engine",    "engines",
+                                   "rigid_bodies",      "controller_host_role",
+                                   "space_server_role", "argos3"};
 
 std::string BuildOfFile(const std::string& path)
 {

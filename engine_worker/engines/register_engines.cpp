@@ -54,7 +54,7 @@ void LoadBuiltinEngine(const std::string& label)
   }
   catch (const std::runtime_error&)
   {
-    // Each run that makes the engine reports it.
+    // A run will report it.
   }
 }
 

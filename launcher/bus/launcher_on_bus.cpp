@@ -1,6 +1,5 @@
 #include "launcher/supervision/bus_library.h"
 
-
 #include "common/bus/membership/control_client.h"
 #include "common/bus/security/derived_key.h"
 #include "common/program/program.h"

@@ -29,8 +29,8 @@
 #include "common/limits/limits.h"
 #include "common/logging/log.h"
 #include "common/program/usage_error.h"
-#include "engine_worker/engine_worker.h"
 #include "launcher/simulation.h"
+#include "simulation/register_all.h"
 
 namespace swarmanoid
 {
@@ -188,7 +188,7 @@ void RunLoaded(const Study& study, const std::string& folder, const RunOrder& or
   const int log = open(log_path.c_str(), O_CREAT | O_WRONLY | O_APPEND | O_CLOEXEC, 0666);
   const int result = memfd_create("run", MFD_CLOEXEC);
   // The process of each run is a copy of this one.
-  for (const EngineConfiguration& engine : experiment.engines) LoadBuiltinEngine(engine.tag);
+  LoadEnginesOf(experiment);
   const pid_t process = log < 0 || result < 0 ? -1 : fork();
   if (process == 0) RunAndLeave(study, folder, order, experiment, log, result);
   if (process < 0)

@@ -456,8 +456,8 @@ private:
   DeviceStreams loss_streams_, range_streams_, bearing_streams_, vertical_bearing_streams_;
   double range_ = 0, loss_ = 0;
   bool needs_sight_ = true;
-  double antenna_m_ = 0;  // above the base of a robot
-  std::vector<double> square_ranges_;    // of senders, m², by entity; empty if no sender has a range
+  double antenna_m_ = 0;               // above the base of a robot
+  std::vector<double> square_ranges_;  // of senders, m², by entity; empty if no sender has a range
   NoiseModel range_noise_, bearing_noise_, vertical_bearing_noise_;
   std::vector<std::uint32_t> message_slots_;  // by entity
   Receiver::Further further_bytes_;
