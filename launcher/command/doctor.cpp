@@ -20,6 +20,7 @@
 #include <string_view>
 
 #include "common/errors/exit_codes.h"
+#include "common/plugins/own_library.h"
 #include "common/program/file_descriptor.h"
 #include "common/run/access/dds_environment.h"
 #include "common/run/access/run_directory.h"
@@ -93,7 +94,16 @@ Finding Cluster(const Trial& here, const Trial& cluster)
 
 Finding Rounding()
 {
-  const std::vector<std::string> fused = FusedLibraries();
+  std::vector<std::string> fused;
+  try
+  {
+    reinterpret_cast<decltype(&FindFusedLibraries)>(FunctionOfOwnLibrary("rigid_bodies", "FindFusedLibraries"))(fused);
+  }
+  catch (const std::runtime_error& error)
+  {
+    return {"physics", Verdict::kBad, fmt::format("the engines with Box2D and ODE cannot be loaded: {}", error.what()),
+            "install Swarmanoid again"};
+  }
   if (fused.empty()) return {"physics", Verdict::kGood, "Box2D and ODE round as on other machines"};
   return {"physics", Verdict::kLimited,
           fmt::format("{} use fused multiply-add: experiments with their engines have other results than on x86-64",

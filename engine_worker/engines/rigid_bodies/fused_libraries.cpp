@@ -32,12 +32,10 @@ bool OdeIsFused()
 
 }  // namespace
 
-std::vector<std::string> FusedLibraries()
+void FindFusedLibraries(std::vector<std::string>& names)
 {
-  std::vector<std::string> fused;
-  if (Box2dIsFused()) fused.emplace_back("Box2D");
-  if (OdeIsFused()) fused.emplace_back("ODE");
-  return fused;
+  if (Box2dIsFused()) names.emplace_back("Box2D");
+  if (OdeIsFused()) names.emplace_back("ODE");
 }
 
 }  // namespace swarmanoid

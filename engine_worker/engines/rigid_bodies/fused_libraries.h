@@ -7,9 +7,9 @@
 namespace swarmanoid
 {
 
-// Returns the names of the libraries (Box2D, ODE) that were compiled with fused multiply-add, which rounds once instead
-// of twice. Experiments with their engines then have other results than on x86-64. Debian's builds for aarch64 are
-// compiled in this way (docs/installing.md has the cure).
-std::vector<std::string> FusedLibraries();
+// Adds the names of the libraries (Box2D, ODE) that were compiled with fused multiply-add, which rounds once instead of
+// twice. Experiments with their engines then have other results than on x86-64. Debian's builds for aarch64 are
+// compiled in this way (docs/installing.md has the cure). `swarmanoid doctor` finds the function by its name.
+extern "C" void FindFusedLibraries(std::vector<std::string>& names);
 
 }  // namespace swarmanoid
