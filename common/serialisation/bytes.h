@@ -100,7 +100,7 @@ public:
   }
   std::string GetText()
   {
-    const auto characters = GetArray<char>();
+    const std::span<const char> characters = GetImage<char>();
     return {characters.begin(), characters.end()};
   }
   bool AtEnd() const { return position_ == bytes_.size(); }
