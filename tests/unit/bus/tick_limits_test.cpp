@@ -270,5 +270,32 @@ TEST(TextsOfFaults, AreOneLineForEachRobotAndAreCutTogether)
   EXPECT_EQ(without, faults);
 }
 
+// Experiment functions alone change cells of floor fields between the steps.
+TEST(LimitsOfFloorFields, CellsMayBeSetIfThereIsOneAndFunctionsAre)
+{
+  for (const std::size_t columns : {0U, 1U, 3U})
+    for (const bool has_functions : {false, true})
+    {
+      Experiment experiment = ThreeRobots();
+      if (columns > 0)
+      {
+        FloorFieldConfiguration& field = experiment.floor_fields.emplace_back();
+        field.id = "trail";
+        field.cell_m = 1;
+        field.columns = columns;
+        field.rows = 1;
+      }
+      if (has_functions) experiment.functions.emplace_back();
+      const CSwarmanoidSpace space(experiment);
+      const TickLimits limits(space, MakeAssignment(experiment, 1), false);
+      SpaceState state;
+      state.poses.resize(7 * 3);
+      state.fields.runs = {0, 1};
+      state.fields.values = {0.5};
+      const std::string refusal = test::MessageOf<BadMessage>([&] { limits.Check({1, 1, 0, false}, state); });
+      EXPECT_EQ(refusal.empty(), columns > 0 && has_functions) << columns << " " << has_functions << refusal;
+    }
+}
+
 }  // namespace
 }  // namespace swarmanoid

@@ -97,7 +97,7 @@ TEST(EditedExperiment, PlacesWithoutTouchingAnythingElse)
 TEST(EditedExperiment, KeepsTheOtherAnglesOfAHeading)
 {
   EditedExperiment experiment =
-      Open(File("    <block id='b' size='1, 1, 1' position='2, 2, .5' orientation='0, 10, 20'/>\n"));
+      Open(File("    <block id='b' size='1, 1, 1' position='2, 2, .5' orientation='0,10,20'/>\n"));
   const std::string before = experiment.Text();
   experiment.Place({{kFirst, std::nullopt, 20.0}});
   EXPECT_EQ(experiment.Text(), before) << "it has this heading";
