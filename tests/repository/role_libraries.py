@@ -1,5 +1,6 @@
 """role_libraries.py PROGRAM...: the program of a role loads the libraries of its own role, and of no other. The command, which is the
-first of the programs, starts without DDS: it loads the library launcher_bus when it needs that, and other sub-commands than `run` from commands. No program starts with ODE or Box2D.
+first of the programs, starts without DDS: it loads the library launcher_bus when it needs that, and other sub-commands than `run` from commands.
+No program starts with ODE or Box2D.
 
 What a process must know of the others' engines, devices and renderers to read an experiment is in common/plugin_descriptions.
 """

@@ -138,6 +138,29 @@ TEST_F(MarksTest, LinksAreThoseOfTheReceiversAntennaAndSight)
   EXPECT_EQ(links(), (Pairs{{0, 1}}));
 }
 
+TEST_F(MarksTest, LinksNeedOnlyTheRangeOfAUsersSensor)
+{
+  PluginDescription own;
+  own.label = "range_and_bearing";
+  own.implementation = "own_range_and_bearing";
+  own.parameters = {
+      {"range", ParameterType::kNumber, "m", "3", "Distance from which packets are received.", 0.001, 10}};
+  PluginCatalogue::Instance().Add(PluginKind::kSensor, own);
+  experiment_.controllers[0].sensors[1].implementation = own.implementation;
+  AddFootbot(1, 1);
+  AddFootbot(2.5, 1);
+  AddFootbot(1, 3.5);
+  AddFootbot(1, 4.5);
+  Add(EntityKind::kBlock, {1.7, 1, 0.15}, {0.1, 0.5, 0.3});
+  Send(0);
+  const auto links = Marks({.rays = {}, .bodies = {}, .links = {0}})["links"];
+  EXPECT_EQ(PairsOf(links["one"]), Pairs{}) << "out of range, or behind the block";
+  SetReceiver("range='3'");
+  space_.reset();
+  Send(0);
+  EXPECT_EQ(PairsOf(Marks({.rays = {}, .bodies = {}, .links = {0}})["links"]["one"]), (Pairs{{0, 2}}));
+}
+
 TEST_F(MarksTest, LinksAreTheSameWhoeverIsAskedFirst)
 {
   std::mt19937 random(5);

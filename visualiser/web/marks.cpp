@@ -21,23 +21,9 @@ using Json = nlohmann::ordered_json;
 
 double Rounded(double value) { return std::round(value * 1e4) / 1e4; }
 
-// Returns the sensor of range and bearing of a robot with its parameters, or nullopt.
-std::optional<Parameters> ReceiverOf(const Experiment& experiment, const EntityConfiguration& robot)
+bool Knows(const PluginDescription& plugin, std::string_view parameter)
 {
-  const ControllerConfiguration* controller = experiment.FindController(robot.controller);
-  if (controller == nullptr) return std::nullopt;
-  for (const DeviceConfiguration& sensor : controller->sensors)
-  {
-    if (sensor.type != "range_and_bearing") continue;
-    const PluginDescription* description =
-        PluginCatalogue::Instance().Find(PluginKind::kSensor, sensor.type, sensor.implementation);
-    // The sensors of other libraries may have none of these parameters.
-    const auto has = [&](std::string_view name)
-    { return std::ranges::find(description->parameters, name, &ParameterSpec::name) != description->parameters.end(); };
-    if (description != nullptr && has("range") && has("antenna") && has("line_of_sight"))
-      return Parameters(sensor.tree, description->parameters);
-  }
-  return std::nullopt;
+  return std::ranges::find(plugin.parameters, parameter, &ParameterSpec::name) != plugin.parameters.end();
 }
 
 // Returns 2, then both ends of each edge.
@@ -61,25 +47,49 @@ MarksWriter::MarksWriter(const CSwarmanoidSpace& space)
     if (!IsRobot(entity.GetKind()) || AttributeOffset(entity.GetKind(), "message") < 0) continue;
     Antenna& antenna = antennas_[e].emplace();
     antenna.message = entity.SlotOf("message");
-    if (const auto receiver = ReceiverOf(space.GetExperiment(), entity.GetConfiguration()))
-    {
-      antenna.range = receiver->Number("range");
-      antenna.height = receiver->Number("antenna");
-      antenna.needs_sight = receiver->Boolean("line_of_sight");
-    }
+    SetReceiver(entity.GetConfiguration(), antenna);
     longest_reach_ = std::max(longest_reach_, antenna.range + 2 * antenna.height);
   }
 }
 
 bool MarksWriter::IsPresent(std::uint32_t entity) const { return entity < space_.Size() && space_.IsPresent(entity); }
 
-bool MarksWriter::Hears(std::uint32_t receiver, std::uint32_t sender)
+void MarksWriter::SetReceiver(const EntityConfiguration& robot, Antenna& antenna) const
+{
+  const ControllerConfiguration* controller = space_.GetExperiment().FindController(robot.controller);
+  if (controller == nullptr) return;
+  for (const DeviceConfiguration& sensor : controller->sensors)
+  {
+    if (sensor.type != "range_and_bearing") continue;
+    const PluginDescription* description =
+        PluginCatalogue::Instance().Find(PluginKind::kSensor, sensor.type, sensor.implementation);
+    if (description == nullptr || !Knows(*description, "range")) continue;
+    const Parameters parameters(sensor.tree, description->parameters);
+    antenna.range = parameters.Number("range");
+    // Sensors of users may lack the other two.
+    if (Knows(*description, "antenna")) antenna.height = parameters.Number("antenna");
+    if (Knows(*description, "line_of_sight")) antenna.needs_sight = parameters.Boolean("line_of_sight");
+    return;
+  }
+}
+
+Vector3 MarksWriter::PlaceOf(std::uint32_t robot, double height) const
+{
+  return space_.GetPose(robot).Apply({0, 0, height});
+}
+
+bool MarksWriter::IsInRange(std::uint32_t receiver, std::uint32_t sender) const
 {
   const Antenna& own = *antennas_[receiver];
   if (own.range <= 0 || space_.Attributes()[antennas_[sender]->message] == 0) return false;
-  const Vector3 from = space_.GetPose(sender).Apply({0, 0, own.height});
-  const Vector3 to = space_.GetPose(receiver).Apply({0, 0, own.height});
-  return (to - from).norm() <= own.range && !(own.needs_sight && query_.IsOccluded(from, to, receiver, sender));
+  return (PlaceOf(sender, own.height) - PlaceOf(receiver, own.height)).norm() <= own.range;
+}
+
+bool MarksWriter::IsInSight(std::uint32_t receiver, std::uint32_t sender)
+{
+  const Antenna& own = *antennas_[receiver];
+  return !own.needs_sight ||
+         !query_.IsOccluded(PlaceOf(receiver, own.height), PlaceOf(sender, own.height), receiver, sender);
 }
 
 std::string MarksWriter::Text(const MarksRequest& wanted)
@@ -154,8 +164,19 @@ std::string MarksWriter::Text(const MarksRequest& wanted)
     for (const std::uint32_t other : query_.FindWithin(space_.GetPose(robot).position, longest_reach_))
     {
       if (other == robot || !antennas_[other] || (asked[other] && other < robot)) continue;
-      const bool hears = Hears(robot, other), is_heard = Hears(other, robot);
+      bool hears = IsInRange(robot, other), is_heard = IsInRange(other, robot);
       if (!hears && !is_heard) continue;
+      if (antennas_[robot]->SeesAs(*antennas_[other]))
+      {
+        // One line of sight serves both directions.
+        if (!IsInSight(robot, other)) continue;
+      }
+      else
+      {
+        hears = hears && IsInSight(robot, other);
+        is_heard = is_heard && IsInSight(other, robot);
+        if (!hears && !is_heard) continue;
+      }
       Json& list = hears && is_heard ? both : one;
       list.push_back(is_heard ? robot : other);
       list.push_back(is_heard ? other : robot);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/plugin_descriptions/antenna.h"
 #include "common/space/collision_models.h"
 #include "common/space/space_query.h"
 #include "visualiser/scene/proximity_rays.h"
@@ -29,13 +30,19 @@ private:
   {
     std::uint32_t message = 0;  // index of the attribute
     // Parameters of its receiver:
-    double range = 0;   // m; 0: it does not receive
-    double height = 0;  // m, of the antennas above the bases of robots
+    double range = 0;                  // m; 0: it does not receive
+    double height = kAntennaHeight_m;  // of the antennas above the bases of robots
     bool needs_sight = true;
+
+    bool SeesAs(const Antenna& other) const { return height == other.height && needs_sight == other.needs_sight; }
   };
 
   bool IsPresent(std::uint32_t entity) const;
-  bool Hears(std::uint32_t receiver, std::uint32_t sender);
+  // Reads the parameters of the robot's sensor of range and bearing, if it has one with a range.
+  void SetReceiver(const EntityConfiguration& robot, Antenna& antenna) const;
+  Vector3 PlaceOf(std::uint32_t robot, double height) const;
+  bool IsInRange(std::uint32_t receiver, std::uint32_t sender) const;
+  bool IsInSight(std::uint32_t receiver, std::uint32_t sender);
 
   const CSwarmanoidSpace& space_;
   SpaceQuery query_;

@@ -1,4 +1,4 @@
-// What other controller hosts would have sent: commands, attributes and faults by robot.
+// Tests that recorded commands and faults go to the controller hosts that step the robots now.
 #include "common/journal/commands_by_robot.h"
 
 #include <gmock/gmock.h>
