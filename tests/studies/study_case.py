@@ -11,7 +11,7 @@ from world.case import FolderCase
 
 SWARMANOID = os.environ["SWARMANOID"]
 CONFIGS = pathlib.Path(os.environ["SWARMANOID_CONFIGS"])
-LIMIT_S = 250
+LIMIT_S = 550
 
 
 class StudyCase(FolderCase):
