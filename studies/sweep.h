@@ -12,8 +12,8 @@ namespace swarmanoid
 
 struct SweepOptions
 {
-  std::string study;   // the file; to continue, the folder of a study
-  std::string output;  // the folder; empty: a new one under runs/
+  std::string study{};   // the file; to continue, the folder of a study
+  std::string output{};  // the folder; empty: a new one under runs/
   bool resume = false;
   bool dry_run = false;
   bool quiet = false;
@@ -21,12 +21,12 @@ struct SweepOptions
   unsigned retries = 0;  // for a run that fails
   // A text "COLUMN=5%" gives points more seeds until the confidence interval of the column's mean is that narrow. The
   // second value limits the seeds.
-  std::string until_ci;
+  std::string until_ci{};
   unsigned most_seeds = 1000;
-  std::string hosts;               // file with the machines that run it; empty: this machine
-  std::vector<std::string> slurm;  // options of sbatch, as one text; nothing: without Slurm
-  unsigned runs_per_task = 0;      // for Slurm; 0: chosen so that there are at most 200 tasks
-  std::string only;                // a condition over factors and "seed": only these runs are executed
+  std::string hosts{};               // file with the machines that run it; empty: this machine
+  std::vector<std::string> slurm{};  // options of sbatch, as one text; nothing: without Slurm
+  unsigned runs_per_task = 0;        // for Slurm; 0: chosen so that there are at most 200 tasks
+  std::string only{};                // a condition over factors and "seed": only these runs are executed
 };
 
 // Returns the exit code. Throws UsageError.
