@@ -23,6 +23,16 @@ TEST(Positioning, IsThePoseOfTheRobot)
   EXPECT_NEAR(positioning.GetHeading(), 2.5, 1e-12);
 }
 
+TEST(Positioning, IsTheOriginBeforeTheFirstReading)
+{
+  TestWorld world;
+  world.AddFootbot(5, 5);
+  TestSensor sensor(world, "positioning", "generic_positioning", {0});
+  const auto& positioning = sensor.Of<CCI_PositioningSensor>(0);
+  EXPECT_EQ(positioning.GetPosition(), Vector3(0, 0, 0));
+  EXPECT_EQ(positioning.GetOrientation().coeffs(), Quaternion::Identity().coeffs());
+}
+
 // If a body turns steadily about an axis fixed in it, its rates are that axis times its speed.
 TEST(Gyroscope, ReadsTheAngularVelocityInTheFrameOfTheRobot)
 {
@@ -75,6 +85,36 @@ TEST(Battery, FallsWithTimeWayAndAngleAndNeverBelowEmpty)
   EXPECT_NEAR(battery.GetCharge(), 0.5 - used - 0.001, 1e-12);
   for (std::uint64_t tick = 3; tick < 10; ++tick) step(tick, 5 + 0.5 * static_cast<double>(tick % 2), 0);
   EXPECT_EQ(battery.GetCharge(), 0);
+}
+
+TEST(Battery, IsFullAtFirstAndNoisyReadingsStayInItsRange)
+{
+  TestWorld world;
+  world.AddFootbot(5, 5);
+  TestSensor plain(world, "battery", "generic_battery", {0});
+  TestSensor noisy(world, "battery", "generic_battery", {0},
+                   {{"start_charge", "0.5"},
+                    {"per_second", "0"},
+                    {"noise_kind", "uniform"},
+                    {"noise_mean", "0"},
+                    {"noise_range", "2"}});
+  bool was_full = false, was_empty = false;
+  for (std::uint64_t tick = 0; tick < 100; ++tick)
+  {
+    world.Space().SetTick(tick);
+    world.Space().SetPose(
+        0, {{5 + 0.01 * static_cast<double>(tick), 5, 0}, QuaternionFromYaw(0.02 * static_cast<double>(tick))});
+    plain.Update();
+    noisy.Update();
+    const double charge = noisy.Of<CCI_BatterySensor>(0).GetCharge();
+    EXPECT_GE(charge, 0);
+    EXPECT_LE(charge, 1);
+    was_full |= charge == 1;
+    was_empty |= charge == 0;
+  }
+  EXPECT_TRUE(was_full && was_empty);
+  // 1e-4 each second, and 1e-3 each metre and radian.
+  EXPECT_NEAR(plain.Of<CCI_BatterySensor>(0).GetCharge(), 1 - 99 * (1e-4 * 0.1 + 1e-3 * 0.01 + 1e-3 * 0.02), 1e-12);
 }
 
 TEST(Battery, KeepsItsChargeOutsideTheArena)

@@ -68,6 +68,49 @@ TEST(Microphone, BodiesBetweenMuffleInTheShadowedModelAlone)
   EXPECT_EQ(loudness("shadowed_microphone", {{"shadow", "0.1"}, {"threshold", "0.2"}}), 0);
 }
 
+TEST(Microphone, HearsNearSourcesAsFromACentimetreAndAbsentOnesNotAtAll)
+{
+  TestWorld world;
+  const auto robot = world.AddFootbot(5, 5);
+  const auto near = AddSound(world, {5, 5.002, 0.1}, 1);
+  AddSound(world, {5, 5.25, 0.1}, 0.5);
+  TestSensor sensor(world, "microphone", "generic_microphone", {robot}, {{"threshold", "2"}});
+  sensor.Update();
+  const auto& microphone = sensor.Of<CCI_MicrophoneSensor>(0);
+  ASSERT_EQ(microphone.GetAllSounds().size(), 2U) << "a source at the threshold is heard";
+  EXPECT_NEAR(microphone.GetAllSounds()[0].loudness, 100, 1e-9);
+  EXPECT_NEAR(microphone.GetAllSounds()[1].loudness, 2, 1e-12);
+  world.Space().SetAttribute(world.Space().PresenceSlot(near), 0);
+  sensor.Update();
+  ASSERT_EQ(microphone.GetAllSounds().size(), 1U);
+  EXPECT_NEAR(microphone.GetLoudness(), 2, 1e-12);
+}
+
+TEST(Contact, ReachesAsFarUpAndDownAsAside)
+{
+  // A block above the robot, or below it.
+  for (const auto& [gap, touches] : {std::pair{0.0019, true}, {0.0021, false}, {-0.01, true}})
+    for (const bool is_above : {true, false})
+    {
+      TestWorld world;
+      const auto robot = world.AddFootbot(5, 5, 0, 1);
+      const double height = DescriptionOf(EntityKind::kFootbot).size.z();
+      world.AddBlock({5, 5, is_above ? 1 + height + gap + 0.05 : 1 - gap - 0.05}, {0.1, 0.1, 0.1});
+      TestSensor sensor(world, "contact", "generic_contact", {robot});
+      sensor.Update();
+      EXPECT_EQ(sensor.Of<CCI_ContactSensor>(0).IsTouched(), touches) << gap << is_above;
+    }
+  TestWorld world;
+  const auto robot = world.AddFootbot(5, 5);
+  const auto other = world.AddFootbot(5 + 2 * kFootbotRadius + 0.0019, 5);
+  TestSensor sensor(world, "contact", "generic_contact", {robot});
+  sensor.Update();
+  EXPECT_TRUE(sensor.Of<CCI_ContactSensor>(0).IsTouched());
+  world.Space().SetPose(other, {{5 + 2 * kFootbotRadius + 0.0021, 5, 0}, Quaternion::Identity()});
+  sensor.Update();
+  EXPECT_FALSE(sensor.Of<CCI_ContactSensor>(0).IsTouched());
+}
+
 TEST(Contact, TellsWhereBodiesTouch)
 {
   TestWorld world;
@@ -248,6 +291,33 @@ TEST(TagReader, ReadsTaggedEntitiesWithinRange)
   EXPECT_THAT(ids({{"range", "0.2"}, {"tagged", "prey_?"}}), UnorderedElementsAre("prey_1", "prey_2"));
   EXPECT_THAT(ids({{"miss_probability", "1"}}), IsEmpty());
   EXPECT_THROW(ids({{"tagged", "pray_*"}}), ConfigurationError);
+}
+
+TEST(TagReader, HasItsAntennaAtItsHeightAndMissesItsShare)
+{
+  TestWorld world;
+  const auto robot = world.AddFootbot(5, 5);
+  world.Configuration().entities[world.AddPrey(5, 5.05, 0.01, 0.1)].id = "prey";
+  const auto tags = [&](TestSensor& sensor)
+  {
+    sensor.Update();
+    return sensor.Of<CCI_TagReaderSensor>(0).GetAllTags();
+  };
+  TestSensor high(world, "tag_reader", "generic_tag_reader", {robot}, {{"height", "0.12"}});
+  ASSERT_EQ(tags(high).size(), 1U);
+  EXPECT_NEAR(tags(high)[0].distance_m, 0.13, 1e-12);
+  EXPECT_NEAR(high.batch->Reach(), 0.12 + 0.15, 1e-12);
+  TestSensor higher(world, "tag_reader", "generic_tag_reader", {robot}, {{"height", "0.15"}});
+  EXPECT_THAT(tags(higher), IsEmpty());
+  TestSensor misses(world, "tag_reader", "generic_tag_reader", {robot}, {{"miss_probability", "0.3"}});
+  int read = 0;
+  constexpr int kTicks = 2000;
+  for (std::uint64_t tick = 0; tick < kTicks; ++tick)
+  {
+    world.Space().SetTick(tick);
+    read += static_cast<int>(tags(misses).size());
+  }
+  EXPECT_NEAR(read, 0.7 * kTicks, 5 * std::sqrt(0.3 * 0.7 * kTicks));
 }
 
 }  // namespace

@@ -211,6 +211,7 @@ TEST(JointedRobots, OnWheelsDriveAndMoveTheirArms)
   EXPECT_NEAR(world.Attribute(robot, "joint_lift"), 0.15, 3e-3);
   EXPECT_NEAR(world.Attribute(robot, "joint_shoulder"), 2, 0.03);
   EXPECT_NEAR(world.Attribute(robot, "joint_elbow"), -0.5, 5e-3);
+  EXPECT_NEAR(world.Sensor("joints", robot, 0), 0.15, 3e-3);
   EXPECT_EQ(world.engine->FreeRobotCount(), 0U);
 }
 
