@@ -401,7 +401,7 @@ TEST(SlurmBatch, HasOrdersAndResultsInFiles)
   SlurmBatch::WriteResult(own, outcome);
   EXPECT_TRUE(SlurmBatch::HasResult(own, {1, 2}));
   folder.Write("slurm/1/results/0-1", "torn");
-  folder.Write("slurm/1/results/9-9", "nobody waits for it");
+  folder.Write("slurm/1/results/9-9", "of another batch");
   folder.Write("slurm/1/results/notes", "");
   auto taken = batch.TakeResults();
   ASSERT_EQ(taken.size(), 2U);
