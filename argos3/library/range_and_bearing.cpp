@@ -8,6 +8,7 @@
 #include "argos3/library/running.h"
 #include "common/messages/range_and_bearing_message.h"
 #include "common/plugin_descriptions/antenna.h"
+#include "common/space/attributes.h"
 #include "common/space/space.h"
 
 namespace argos
@@ -179,7 +180,8 @@ CByteArray& CRABEquippedEntity::GetData()
   const auto& ours = OursOf(*this);
   SendWritten();
   *data_ = CByteArray(GetMsgSize());
-  if (ours.GetAttribute("message", 0) != 0)
+  const bool can_send = swarmanoid::FindAttribute(ours.GetKind(), "message") != nullptr;
+  if (can_send && ours.GetAttribute("message", 0) != 0)
   {
     std::vector<double> values;
     for (int i = 0; i < NumbersOf(*data_); ++i) values.push_back(ours.GetAttribute("message", 1 + i));

@@ -156,7 +156,8 @@ void CLEDEntity::Reset()
 void CRABEquippedEntity::Reset()
 {
   const auto* ours = PresentOf(*this);
-  if (ours != nullptr && ours->GetAttribute("message", 0) != 0) ClearData();
+  if (ours == nullptr || swarmanoid::FindAttribute(ours->GetKind(), "message") == nullptr) return;
+  if (ours->GetAttribute("message", 0) != 0) ClearData();
 }
 
 void CBatteryEquippedEntity::Reset()

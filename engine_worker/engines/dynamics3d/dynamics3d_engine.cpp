@@ -311,6 +311,12 @@ void CDynamics3dEngine::EntityMoved(std::uint32_t entity)
     model->Place(pose);
 }
 
+void CDynamics3dEngine::BeginAgain()
+{
+  for (Model* model : owned_)
+    if (!model->IsElsewhere()) model->BeginAgain();
+}
+
 namespace
 {
 

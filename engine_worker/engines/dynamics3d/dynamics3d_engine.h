@@ -30,6 +30,7 @@ public:
   void LoadState(ByteReader& state) override;
   // The engine has no hidden state: each step makes all contacts again, in an order that follows from the entities.
   void Canonicalise() override {}
+  void BeginAgain() override;
   bool IsAlwaysCanonical() const override { return true; }
   std::unique_ptr<EngineRegion> MakeRegion(unsigned region, RegionExchange& exchange) override;
   bool RegionsKnowEntities() const override { return true; }

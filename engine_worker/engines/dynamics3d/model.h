@@ -91,6 +91,8 @@ public:
   void TakeOver(const Pose& pose, const EntityVelocity& velocity);
   // Does the same for a ghost, in each tick: objects that sleep go on to do so.
   void Haunt(const Pose& pose, const EntityVelocity& velocity);
+  // The run begins again: joints, such as the turret, are where the attributes of the entity say.
+  void BeginAgain() { FollowAttributes(); }
   // Another engine moves the entity.
   bool IsElsewhere() const { return is_elsewhere_; }
   void SetElsewhere(bool is_elsewhere) { is_elsewhere_ = is_elsewhere; }

@@ -396,6 +396,12 @@ void Kinematics2dEngine::LoadState(ByteReader& state)
 void Kinematics2dEngine::BeginAgain()
 {
   for (Mirror& mirror : mirrors_) mirror.is_known = 0;
+  for (Footbot& footbot : footbots_)
+  {
+    footbot.aperture.reset();
+    world_.SetTurretAngle(footbot.body, space_->Attributes()[footbot.turret_slot]);
+  }
+  reported_ = 0;
 }
 
 std::string Kinematics2dEngine::StatusText() const
