@@ -264,5 +264,160 @@ TEST(WebFrame, ABeamEndsOnTheFloorOrOnTheFirstBody)
   EXPECT_NEAR(beam.z, 0.2, 1e-5);
 }
 
+// The numbers of the flags are those of docs/web_render.md.
+TEST(WebFrame, EachStateOfAnEntityHasItsFlagAndColour)
+{
+  Experiment experiment = FourEntities::Make();
+  test::Add(experiment, test::Entity(EntityKind::kHandbot, "hb_0", {1, 3, 0}));
+  CSwarmanoidSpace space(experiment);
+  const std::size_t n = space.Movable().size();
+  ASSERT_EQ(n, 4U);
+  struct Row
+  {
+    const char* id;
+    const char* attribute;
+    int element;
+    double value;
+    std::uint32_t colour;
+    int flags;
+  };
+  const Row rows[] = {{"fb_0", "gripped", 0, 5, 0, 4},
+                      {"fb_0", "beacon", 0, 0x804020, 0x804020, 1 + 16},
+                      {"fb_0", "turret_angle", 0, 1, 0, 0},
+                      {"eb_0", "led", 15, 0x102030, 0x102030, 1 + 2},
+                      {"eb_0", "led", 0, 0x302010, 0x302010, 1 + 2},
+                      {"eb_0", "laser", 0, 1, 0, 8},
+                      {"eb_0", "attached", 0, 1, 0, 32},
+                      {"hb_0", "gripped", 1, 1, 0, 4},
+                      {"hb_0", "rope_attached", 0, 1, 0, 32},
+                      {"prey", "colour", 0, 0x123456, 0x123456, 0}};
+  for (const auto& [id, attribute, element, value, colour, flags] : rows)
+  {
+    CSwarmanoidSpaceEntity& entity = *space.FindEntity(id);
+    const double before = entity.GetAttribute(attribute, element);
+    entity.SetAttribute(attribute, value, element);
+    const std::string bytes = FrameWriter(space).WriteKey();
+    std::size_t slot = 0;
+    while (space.Movable()[slot] != entity.GetIndex()) ++slot;
+    const std::size_t place = ColoursOf(n) + 4 * slot;
+    const auto byte = [&](std::size_t k) { return std::uint32_t{ByteAt(bytes, place + k)}; };
+    EXPECT_EQ(byte(0) << 16U | byte(1) << 8U | byte(2), colour) << id << " " << attribute;
+    EXPECT_EQ(byte(3), static_cast<std::uint32_t>(flags)) << id << " " << attribute;
+    entity.SetAttribute(attribute, before, element);
+  }
+}
+
+TEST(WebFrame, HandsHoldOneEntityEachAndOnlyInTheArena)
+{
+  Experiment experiment = FourEntities::Make();
+  const std::uint32_t robot = test::Add(experiment, test::Entity(EntityKind::kHandbot, "hb_0", {1, 3, 0}));
+  CSwarmanoidSpace space(experiment);
+  space.GetEntity(robot).SetAttribute("gripped", 1, 0);  // entity 0
+  space.GetEntity(robot).SetAttribute("gripped", 3, 1);
+  FrameWriter writer(space);
+  const std::string bytes = writer.WriteKey();
+  ASSERT_EQ(At<FrameHeader>(bytes, 0).grips, 2u);
+  for (std::size_t hand = 0; hand < 2; ++hand)
+  {
+    const auto grip = At<FrameGrip>(bytes, EndOf(4) + hand * sizeof(FrameGrip));
+    EXPECT_EQ(grip.robot, robot);
+    EXPECT_EQ(grip.held, hand == 0 ? 0u : 2u);
+  }
+  space.SetAttribute(space.PresenceSlot(robot), 0);
+  EXPECT_EQ(At<FrameHeader>(writer.WriteKey(), 0).grips, 0u);
+}
+
+TEST(WebFrame, TheColourOfUnevenLedsIsTheMeanOfThoseThatShine)
+{
+  FourEntities world;
+  CSwarmanoidSpaceEntity& robot = world.space.GetEntity(0);
+  robot.SetAttribute("beacon", 0xffffff);  // it counts only if no LED shines
+  robot.SetAttribute("led", 0x102030, 0);
+  robot.SetAttribute("led", 0x305070, 6);
+  robot.SetAttribute("led", 0x50a0e0, 11);
+  const std::string bytes = FrameWriter(world.space).WriteKey();
+  EXPECT_EQ(ByteAt(bytes, ColoursOf(3)), 0x30);
+  EXPECT_EQ(ByteAt(bytes, ColoursOf(3) + 1), 0x5a);
+  EXPECT_EQ(ByteAt(bytes, ColoursOf(3) + 2), 0x80);
+  EXPECT_EQ(ByteAt(bytes, ColoursOf(3) + 3), 1 + 2 + 16);
+  const auto ring = At<FrameRing>(bytes, EndOf(3));
+  EXPECT_THAT(ring.colours[11], testing::ElementsAre(0x50, 0xa0, 0xe0));
+  EXPECT_THAT(ring.colours[12], testing::ElementsAre(0, 0, 0));
+}
+
+TEST(WebFrame, OnlyTheFirst512RobotsShowTheirLedsOneByOne)
+{
+  const Experiment experiment = AThousandFootbots();
+  CSwarmanoidSpace space(experiment);
+  for (std::uint32_t e = 0; e < 600; ++e) space.GetEntity(e).SetAttribute("led", 0xff0000);
+  const std::string bytes = FrameWriter(space).WriteKey();
+  ASSERT_EQ(At<FrameHeader>(bytes, 0).rings, 512u);
+  EXPECT_EQ(At<FrameRing>(bytes, EndOf(1000) + 511 * sizeof(FrameRing)).entity, 511u);
+  EXPECT_EQ(bytes.size(), EndOf(1000) + 512 * sizeof(FrameRing));
+}
+
+TEST(WebFrame, ABeamFollowsPanTiltAndTheRobotAndEndsAfterThirtyMetres)
+{
+  FourEntities world;
+  world.space.SetPose(2, {{3, 1, 0}, Quaternion::Identity()});  // the prey is away from all beams
+  CSwarmanoidSpaceEntity& eyebot = world.space.GetEntity(1);
+  eyebot.SetAttribute("laser", 1);
+  FrameWriter writer(world.space);
+  const auto end = [&]
+  {
+    const std::string bytes = writer.WriteKey();
+    EXPECT_EQ(At<FrameHeader>(bytes, 0).beams, 1u);
+    const auto beam = At<FrameBeam>(bytes, EndOf(3));
+    EXPECT_EQ(beam.colour, 0xff0000u);
+    return Vector3(beam.x, beam.y, beam.z);
+  };
+  eyebot.SetAttribute("laser_tilt", std::atan2(0.5, 1.5));
+  EXPECT_TRUE(end().isApprox(Vector3(2.5, 2, 0), 1e-5));
+  eyebot.SetAttribute("laser_pan", kPi / 2);
+  EXPECT_TRUE(end().isApprox(Vector3(2, 2.5, 0), 1e-5));
+  world.space.SetPose(1, {{2, 2, 1.5}, QuaternionFromYaw(kPi / 2)});
+  EXPECT_TRUE(end().isApprox(Vector3(1.5, 2, 0), 1e-5));
+  world.space.SetPose(1, {{2, 2, 1.5}, Quaternion::Identity()});
+  eyebot.SetAttribute("laser_tilt", kPi);  // straight up
+  EXPECT_TRUE(end().isApprox(Vector3(2, 2, 31.5), 1e-5));
+  world.space.SetAttribute(world.space.PresenceSlot(1), 0);
+  EXPECT_EQ(At<FrameHeader>(writer.WriteKey(), 0).beams, 0u);
+}
+
+TEST(WebFrame, AStepReachesToTheLastTenthOfAMillimetre)
+{
+  const Experiment experiment = AThousandFootbots();
+  CSwarmanoidSpace space(experiment);
+  FrameWriter writer(space);
+  const Pose start = space.GetPose(0);
+  writer.WriteKey();
+  const auto poses = [&](const Vector3& move)
+  {
+    space.SetPose(0, {start.position + move, start.orientation});
+    const std::string bytes = writer.WriteChange();
+    return bytes.empty() ? ~0U : At<std::uint32_t>(bytes, sizeof(FrameHeader));
+  };
+  EXPECT_EQ(poses({3.2766, -3.2765, 0}), 0u);
+  EXPECT_EQ(poses({-3.2765, 3.2765, 0}), 0u);
+  for (const Vector3& far :
+       {Vector3(3.2769, 0, 0), Vector3(-3.2769, 0, 0), Vector3(0, 3.2769, 0), Vector3(0, 0, 0.001)})
+    EXPECT_EQ(poses(far), 1u) << far.transpose();
+}
+
+TEST(WebFrame, KeysAreNumberedAndChangesNameTheirKey)
+{
+  FourEntities world;
+  FrameWriter writer(world.space);
+  for (std::uint32_t number = 1; number <= 3; ++number)
+  {
+    world.space.SetTick(10 * number);
+    EXPECT_EQ(At<FrameHeader>(writer.WriteKey(), 0).key, number);
+    const auto change = At<FrameHeader>(writer.WriteChange(), 0);
+    EXPECT_EQ(change.key, number);
+    EXPECT_EQ(change.tick, 10 * number);
+    EXPECT_EQ(change.entities, 3u);
+  }
+}
+
 }  // namespace
 }  // namespace swarmanoid

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -12,6 +13,7 @@
 
 #include "common/configuration/xml_reader.h"
 #include "common/math/elementary.h"
+#include "common/mesh/convex_hull.h"
 #include "common/plugin_descriptions/describe_builtins.h"
 
 namespace swarmanoid
@@ -193,6 +195,65 @@ TEST_F(MarksTest, BodiesAreThoseThatEnginesCollideAndEachModelIsToldOnce)
   const auto& block = shapes["bodies"][1];
   ASSERT_EQ(block.size(), 1u);
   EXPECT_EQ(block[0], nlohmann::json({0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.2, 0.3, 0.1}));
+}
+
+TEST_F(MarksTest, RaysNeedASensorOfProximityAndScansOneOfRange)
+{
+  AddFootbot(1, 1);
+  AddFootbot(2, 1);
+  experiment_.entities[1].controller.clear();
+  const auto marks = Marks({.rays = {0, 1}, .bodies = {}, .links = {}});
+  EXPECT_EQ(marks["type"], "marks");
+  EXPECT_EQ(marks["tick"], 0);
+  EXPECT_EQ(marks["rays"]["entities"], nlohmann::json({0}));
+  ASSERT_EQ(marks["rays"]["hits"].size(), 1u);
+  for (const auto& hit : marks["rays"]["hits"][0]) EXPECT_EQ(hit, 1.0) << "nothing is near";
+  EXPECT_EQ(marks["scans"], nlohmann::json::array());
+}
+
+TEST_F(MarksTest, BeamsOfScannersEndAtBodiesAndAtTheirRangeInTheFrameOfTheRobot)
+{
+  experiment_.controllers[0].sensors = {{"range_scanner", "generic_range_scanner", {}}};
+  experiment_.controllers[0].sensors[0].tree = TConfigurationTree(
+      ReadXml("<range_scanner beams='4' field_of_view='360' range='1.5' position='0, 0, 0.1'/>", "test.xml"));
+  AddFootbot(3, 4, kPi / 2);
+  Add(EntityKind::kBlock, {3, 5, 0.5}, {1, 1, 1});  // its face is 0.5 m before the robot
+  const auto marks = Marks({.rays = {0}, .bodies = {}, .links = {}});
+  EXPECT_TRUE(marks["rays"]["entities"].empty());
+  ASSERT_EQ(marks["scans"].size(), 1u);
+  const auto& scan = marks["scans"][0];
+  EXPECT_EQ(scan["entity"], 0);
+  EXPECT_EQ(scan["from"], nlohmann::json({0.0, 0.0, 0.1}));
+  const auto places = [](const nlohmann::json& numbers)
+  {
+    std::vector<std::vector<double>> list;
+    for (std::size_t k = 0; k + 3 <= numbers.size(); k += 3)
+      list.push_back({numbers[k], numbers[k + 1], numbers[k + 2]});
+    return list;
+  };
+  const auto at = [](double x, double y)
+  {
+    using testing::DoubleNear;
+    return testing::ElementsAre(DoubleNear(x, 1e-4), DoubleNear(y, 1e-4), DoubleNear(0.1, 1e-4));
+  };
+  EXPECT_THAT(places(scan["hit"]), testing::ElementsAre(at(0.5, 0)));
+  EXPECT_THAT(places(scan["free"]), testing::UnorderedElementsAre(at(-1.5, 0), at(0, 1.5), at(0, -1.5)));
+}
+
+TEST_F(MarksTest, HullsAreShownByTheirEdges)
+{
+  Add(EntityKind::kBlock, {3, 1, 0.1}, {0.4, 0.6, 0.2});
+  std::vector<Vector3> corners{{0, 0, -0.1}, {0.2, 0, -0.1}, {0, 0.3, -0.1}, {0, 0, 0.1}};
+  experiment_.entities[0].hull = std::make_shared<const ConvexHull>(HullOf(corners));
+  const auto shapes = Marks({.rays = {}, .bodies = {0}, .links = {}})["shapes"];
+  ASSERT_EQ(shapes["bodies"].size(), 1u);
+  const auto& hull = shapes["bodies"][0][0];
+  EXPECT_EQ(hull[0], 2);
+  EXPECT_EQ(hull.size(), 1 + 6 * 6u) << "a tetrahedron has six edges";
+  for (std::size_t k = 1; k < hull.size(); k += 3)
+    EXPECT_TRUE(std::ranges::any_of(corners, [&](const Vector3& corner)
+                                    { return (corner - Vector3(hull[k], hull[k + 1], hull[k + 2])).norm() < 1e-3; }))
+        << k;
 }
 
 TEST_F(MarksTest, WhoIsNotInTheArenaHasNone)

@@ -4,13 +4,17 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+
+#include <octomap/OcTree.h>
 
 #include "common/messages/control_verbs.h"
 #include "tests/web/four_entities.h"
 #include "tests/world/fake_run.h"
 #include "tests/world/message_of.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -228,6 +232,206 @@ TEST(WebMessages, WhoeverLooksMayLookBack)
       ParseRequest(R"({"do": "look_back", "tick": 7, "entities": [], "earlier": "yes"})")));
   EXPECT_THROW(ParseRequest(R"({"do": "look_back", "tick": -1})"), std::invalid_argument);
   EXPECT_THROW(ParseRequest(R"({"do": "look_back", "entities": []})"), std::invalid_argument);
+}
+
+TEST(WebMessages, RequestsWithoutAuthorityAreReadUpToTheirLimits)
+{
+  EXPECT_EQ(std::get<StartBranchRequest>(ParseRequest(R"({"do": "branch", "tick": 12})")).tick, 12u);
+  EXPECT_EQ(std::get<StartBranchRequest>(ParseRequest(R"({"do": "branch", "tick": 0})")).tick, 0u);
+  EXPECT_THROW(ParseRequest(R"({"do": "branch", "tick": "12"})"), std::invalid_argument);
+  EXPECT_THROW(ParseRequest(R"({"do": "branch", "tick": 2e15})"), std::invalid_argument);
+  EXPECT_EQ(std::get<FrameRateRequest>(ParseRequest(R"({"do": "frame_period", "ms": 0})")).period_ms, 0u);
+  EXPECT_EQ(std::get<FrameRateRequest>(ParseRequest(R"({"do": "frame_period", "ms": 60000})")).period_ms, 60000u);
+  EXPECT_THROW(ParseRequest(R"({"do": "frame_period", "ms": 60001})"), std::invalid_argument);
+  EXPECT_THROW(ParseRequest(R"({"do": "frame_period", "ms": -1})"), std::invalid_argument);
+  const auto with = [](const char* verb, const char* name, std::size_t entities, std::uint64_t last = 0)
+  {
+    nlohmann::json request{{"do", verb}, {"rays", {}}, {"bodies", {}}, {"links", {}}};
+    request["rays"] = request["bodies"] = request["links"] = nlohmann::json::array();
+    request[name] = std::vector<std::uint64_t>(entities, last);
+    return request.dump();
+  };
+  EXPECT_EQ(std::get<WatchRequest>(ParseRequest(with("watch", "entities", 16))).entities.size(), 16u);
+  EXPECT_THROW(ParseRequest(with("watch", "entities", 17)), std::invalid_argument);
+  EXPECT_THAT(std::get<WatchRequest>(ParseRequest(with("watch", "entities", 1, 4294967295))).entities,
+              ElementsAre(4294967295));
+  EXPECT_THROW(ParseRequest(with("watch", "entities", 1, 4294967296)), std::invalid_argument);
+  for (const char* marks : {"rays", "bodies", "links"})
+  {
+    EXPECT_NO_THROW(ParseRequest(with("marks", marks, 1000))) << marks;
+    EXPECT_THROW(ParseRequest(with("marks", marks, 1001)), std::invalid_argument) << marks;
+  }
+}
+
+TEST(WebMessages, TheFirstMessageHasTheProtocolAndWhetherAFileIsEdited)
+{
+  const auto run = nlohmann::json::parse(WelcomeText(true, "0123"));
+  EXPECT_EQ(run["type"], "welcome");
+  EXPECT_EQ(run["protocol"], 3);
+  EXPECT_FALSE(run.contains("edits"));
+  EXPECT_EQ(nlohmann::json::parse(WelcomeText(true, "0123", true))["edits"], true);
+}
+
+TEST(WebMessages, AuthorityIsOneOfThreeWords)
+{
+  for (const auto& [authority, word] :
+       {std::pair(Authority::kControl, "granted"), std::pair(Authority::kWrongToken, "wrong token"),
+        std::pair(Authority::kReadOnly, "read-only")})
+    EXPECT_EQ(nlohmann::json::parse(AuthorityText(authority)),
+              (nlohmann::json{{"type", "authority"}, {"control", word}}));
+}
+
+TEST(WebMessages, ShortAnswersHaveTheirFields)
+{
+  using Json = nlohmann::json;
+  EXPECT_EQ(Json::parse(RefusalText("no")), (Json{{"type", "reply"}, {"ok", false}, {"text", "no"}}));
+  EXPECT_EQ(Json::parse(LogText(7, "server", "warning", "late")),
+            (Json{{"type", "log"}, {"tick", 7}, {"source", "server"}, {"level", "warning"}, {"text", "late"}}));
+  EXPECT_EQ(Json::parse(BranchedText({12, "http://here/", ""})),
+            (Json{{"type", "branched"}, {"tick", 12}, {"url", "http://here/"}, {"error", ""}}));
+  RobotPlaybackAnswer answer;
+  answer.tick = 40;
+  answer.robots.resize(1);
+  answer.robots[0].entity = 3;
+  answer.robots[0].tick = 39;
+  answer.robots[0].controller = "driver";
+  answer.robots[0].state = "TURN";
+  answer.robots[0].text = "turns";
+  answer.robots[0].sensors = {{"battery", {{"left", "s", 1.5}}}};
+  EXPECT_EQ(Json::parse(RobotPlaybackText(answer)), Json::parse(R"({"type": "past_inside", "tick": 40, "error": "",
+    "entities": [{"entity": 3, "tick": 39, "controller": "driver", "state": "TURN", "text": "turns", "attributes": {},
+                  "sensors": [{"type": "battery", "names": ["left"], "units": ["s"], "values": [1.5]}],
+                  "actuators": []}]})"));
+}
+
+TEST(WebMessages, TheStatusHasPaceAndProcesses)
+{
+  FourEntities world;
+  world.space.SetTick(30);
+  RunStatus status;
+  status.tick = 31;
+  status.phase = RunStatus::Phase::kPaused;
+  status.speed_wanted = 2;
+  status.real_time_factor = 1.5;
+  status.ticks_per_second = 15;
+  status.ended = "goal";
+  status.processes.resize(1);
+  status.processes[0].name = "controller host 1";
+  status.processes[0].process = "lab:7";
+  status.processes[0].tick = 29;
+  status.processes[0].late_s = 2.5;
+  status.processes[0].doing = "runs";
+  EXPECT_EQ(nlohmann::json::parse(StatusText(world.space, status, 4)),
+            nlohmann::json::parse(R"({"type": "status", "tick": 30, "time_s": 3.0, "phase": "paused",
+    "speed_wanted": 2.0, "real_time_factor": 1.5, "ticks_per_second": 15.0, "ended": "goal", "clients": 4,
+    "processes": [{"name": "controller host 1", "process": "lab:7", "tick": 29, "late_s": 2.5, "doing": "runs"}]})"));
+}
+
+TEST(WebMessages, TheWorldHasWhatNeverChanges)
+{
+  Experiment experiment = FourEntities::Make();
+  experiment.seed = 5;
+  experiment.max_clock = 700;
+  test::AddController(experiment, "lua_controller", "idle");
+  test::AddController(experiment, "driver_controller", "driver");
+  experiment.entities[0].controller = "driver";
+  experiment.entities[2].pose = {{3, 2, 0}, QuaternionFromYaw(kPi)};
+  experiment.entities[2].colour = 0x112233;
+  for (const char* id : {"crowd_0", "crowd_1"})
+    experiment.entities[test::Add(experiment, test::Entity(EntityKind::kFootbot, id, {1, 3, 0}))].reserve = "crowd";
+  const Assignment assignment = MakeAssignment(experiment, 2);
+  const CSwarmanoidSpace space(experiment);
+  const auto json = nlohmann::json::parse(WorldText(space, assignment));
+  using Json = nlohmann::json;
+  EXPECT_EQ(json["type"], "world");
+  EXPECT_EQ(json["experiment"], "small");
+  EXPECT_EQ(json["seed"], 5);
+  EXPECT_EQ(json["last_tick"], 700);
+  EXPECT_DOUBLE_EQ(json["tick_seconds"], 0.1);
+  EXPECT_EQ(json["arena"], Json({4.0, 4.0, 2.0}));
+  EXPECT_EQ(json["engines"], Json::parse(R"([{"id": "ground", "tag": "dummy_engine"}])"));
+  EXPECT_EQ(json["hosts"], assignment.hosts.size());
+  EXPECT_EQ(json["controllers"], Json::parse(R"([{"id": "idle", "tag": "lua_controller"},
+                                                 {"id": "driver", "tag": "driver_controller"}])"));
+  EXPECT_EQ(json["entities"]["controller"], Json({1, -1, -1, -1, -1, -1}));
+  EXPECT_EQ(json["entities"]["host"], Json(assignment.host));
+  EXPECT_EQ(json["begins_at_viewpoint"], false);
+  EXPECT_EQ(json["viewpoints"], Json::array());
+  EXPECT_EQ(json["reserves"], Json::parse(R"([{"id": "crowd", "first": 4, "count": 2}])"));
+  EXPECT_EQ(json["meshes"], Json::array());
+  EXPECT_EQ(json["bodies"][0]["position"], Json({3.0, 2.0, 0.0}));
+  EXPECT_EQ(json["bodies"][0]["colour"], 0x112233);
+  EXPECT_NEAR(json["bodies"][0]["orientation"][2], 1, 1e-9);
+  EXPECT_NEAR(json["bodies"][0]["orientation"][3], 0, 1e-9);
+  const std::map<std::string, std::string> roles{
+      {"footbot", "robot"}, {"block", "object"},       {"light_bulb", "light"}, {"sound_source", "sound"},
+      {"hole", "hole"},     {"ground_patch", "patch"}, {"terrain", "terrain"}};
+  for (const auto& [kind, role] : roles) EXPECT_EQ(json["looks"][kind]["role"], role) << kind;
+  EXPECT_EQ(json["looks"]["cylindric_prey"]["form"], "cylinder");
+  EXPECT_EQ(json["looks"]["cylindric_prey"]["based"], true);
+  EXPECT_EQ(json["looks"]["block"]["based"], false);
+  EXPECT_DOUBLE_EQ(json["looks"]["footbot"]["proximity"]["height"], 0.06);
+  EXPECT_DOUBLE_EQ(json["looks"]["footbot"]["proximity"]["range"], 0.1);
+  EXPECT_FALSE(json["looks"]["footbot"].contains("model")) << "the page has the meshes of built-in robots";
+  EXPECT_EQ(json["attributes"]["ground_patch"],
+            Json::parse(R"([{"name": "colour", "count": 1, "description": "colour of the surface"}])"));
+}
+
+TEST(WebMessages, TerrainIsAGridOfHeightsWithHoles)
+{
+  const test::TemporaryFolder folder;
+  const std::string path = folder / "stones.bt";
+  octomap::OcTree tree(0.1);
+  for (const float x : {0.05F, 0.55F}) tree.updateNode(octomap::point3d(x, 0.05F, 0.05F), true);
+  tree.writeBinary(path);
+  Experiment experiment = FourEntities::Make();
+  EntityConfiguration terrain = test::Entity(EntityKind::kTerrain, "stones");
+  terrain.tree = test::TerrainTree("octomap", {{"file", path}});
+  test::Add(experiment, terrain);
+  const CSwarmanoidSpace space(experiment);
+  const auto json = nlohmann::json::parse(WorldText(space, MakeAssignment(experiment, 1)));
+  const auto& surface = json["bodies"].back()["terrain"];
+  ASSERT_TRUE(surface.is_object()) << json["bodies"].back();
+  EXPECT_NEAR(surface["low"][0], 0, 1e-6);
+  EXPECT_NEAR(surface["high"][0], 0.6, 1e-6);
+  EXPECT_NEAR(surface["high"][2], 0.1, 1e-6);
+  const auto columns = surface["columns"].get<std::size_t>(), rows = surface["rows"].get<std::size_t>();
+  EXPECT_NEAR(static_cast<double>(columns), 128, 1) << "along the longer side";
+  EXPECT_NEAR(static_cast<double>(rows), 21, 1) << "cells are squares";
+  const auto& heights = surface["heights"];
+  ASSERT_EQ(heights.size(), columns * rows);
+  for (const std::size_t row : {std::size_t{0}, rows - 1})
+  {
+    EXPECT_DOUBLE_EQ(heights[row * columns], 0.1);
+    EXPECT_DOUBLE_EQ(heights[row * columns + columns - 1], 0.1);
+    EXPECT_TRUE(heights[row * columns + columns / 2].is_null()) << "between the stones";
+  }
+}
+
+TEST(WebMessages, ColoursOfLightsHaveTheirIntensity)
+{
+  Experiment experiment = FourEntities::Make();
+  const std::uint32_t light = test::Add(experiment, test::Entity(EntityKind::kLightBulb, "light", {1, 1, 1}));
+  const std::uint32_t wall =
+      test::Add(experiment, test::Entity(EntityKind::kWall, "wall", {0, 1, 0.5}, {0.1, 1, 1}, false));
+  CSwarmanoidSpace space(experiment);
+  space.GetEntity(light).SetAttribute("colour", 0x0a0b0c);
+  space.GetEntity(light).SetAttribute("intensity", 2.5);
+  const auto json = nlohmann::json::parse(ColoursText(space));
+  EXPECT_EQ(json["type"], "colours");
+  EXPECT_EQ(json["entities"], nlohmann::json({3, light, wall})) << "the prey moves and is in the frames";
+  EXPECT_EQ(json["colours"][1], 0x0a0b0c);
+  EXPECT_EQ(json["intensities"], nlohmann::json({1.0, 2.5, 1.0}));
+}
+
+TEST(WebMessages, ATimelineOfOneTickBeginsAndEndsThere)
+{
+  const auto json = nlohmann::json::parse(TimelineText("/runs/a", 5, 5, {}));
+  EXPECT_EQ(json["first"], 5);
+  EXPECT_EQ(json["last"], 5);
+  EXPECT_EQ(json["events"], nlohmann::json::array());
+  EXPECT_EQ(nlohmann::json::parse(TimelineText("/runs/a", 5, 6, {}))["last"], 5);
+  EXPECT_EQ(nlohmann::json::parse(TimelineText("/runs/a", 5, 7, {}))["last"], 6);
 }
 
 // JSON has no word for numbers that are not finite.

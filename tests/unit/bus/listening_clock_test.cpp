@@ -1,7 +1,16 @@
 // The silence of others counts only while this process could hear them.
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <functional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "common/bus/delayed_calls.h"
+#include "common/bus/guarded.h"
 #include "common/bus/listening_clock.h"
+#include "tests/eventually.h"
 
 namespace swarmanoid
 {
@@ -47,6 +56,91 @@ TEST(ListeningClock, NeverGoesBack)
   EXPECT_EQ(clock.At(Time{} + 9s), before);
   EXPECT_EQ(clock.At(Time{} + 10s), before);
   EXPECT_EQ(clock.At(Time{} + 10s + 20ms), before + 20ms);
+}
+
+// The names of the calls that were made, in their order.
+struct MadeCalls
+{
+  Guarded<std::vector<std::string>> names;
+
+  std::function<void()> Note(const std::string& name)
+  {
+    return [this, name] { names.Lock()->push_back(name); };
+  }
+  bool Eventually(const std::vector<std::string>& wanted)
+  {
+    return test::Eventually([&] { return *names.Lock() == wanted; });
+  }
+};
+
+TEST(DelayedCalls, AreMadeInTheOrderOfTheirDelays)
+{
+  MadeCalls made;
+  std::atomic<bool> goes_on = false;
+  DelayedCalls calls;
+  calls.Schedule("first", 0s,
+                 [&]
+                 {
+                   while (!goes_on) std::this_thread::sleep_for(1ms);
+                   made.Note("first")();
+                 });
+  calls.Schedule("never", 1h, made.Note("never"));
+  calls.Schedule("third", 200ms, made.Note("third"));
+  calls.Schedule("second", 100ms, made.Note("second"));
+  goes_on = true;
+  EXPECT_TRUE(made.Eventually({"first", "second", "third"}));
+}
+
+TEST(DelayedCalls, OfOneNameAreMadeOnceUntilTheyAreForgotten)
+{
+  MadeCalls made;
+  DelayedCalls calls;
+  calls.Schedule("a", 1h, made.Note("late"));
+  calls.Schedule("a", 0s, made.Note("second"));
+  calls.Schedule("b", 0s, made.Note("other"));
+  EXPECT_TRUE(made.Eventually({"other"}));
+  calls.Forget("a");
+  calls.Schedule("a", 0s, made.Note("third"));
+  EXPECT_TRUE(made.Eventually({"other", "third"}));
+  calls.Schedule("a", 1h, made.Note("late"));
+  calls.Cancel("a");
+  calls.Schedule("a", 0s, made.Note("fourth"));
+  EXPECT_TRUE(made.Eventually({"other", "third", "fourth"}));
+}
+
+TEST(DelayedCalls, AreWaitedForByCancelAndByTheEnd)
+{
+  for (const bool at_end : {false, true})
+  {
+    std::atomic<bool> begun = false, goes_on = false, ended = false;
+    {
+      DelayedCalls calls;
+      calls.Schedule("a", 0s,
+                     [&]
+                     {
+                       begun = true;
+                       while (!goes_on) std::this_thread::sleep_for(1ms);
+                       std::this_thread::sleep_for(20ms);
+                       ended = true;
+                     });
+      ASSERT_TRUE(test::Eventually([&] { return begun.load(); }));
+      goes_on = true;
+      if (!at_end) calls.Cancel("a");
+      EXPECT_TRUE(at_end || ended);
+    }
+    EXPECT_TRUE(ended);
+  }
+}
+
+TEST(DelayedCalls, AreNotMadeAfterTheEnd)
+{
+  MadeCalls made;
+  DelayedCalls calls;
+  calls.Schedule("late", 1h, made.Note("late"));
+  calls.Stop();
+  calls.Schedule("a", 0s, made.Note("a"));
+  std::this_thread::sleep_for(20ms);
+  EXPECT_TRUE(made.names.Lock()->empty());
 }
 
 }  // namespace

@@ -3,7 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdlib>
+#include <thread>
+
+#include "common/activity/activity.h"
+#include "common/limits/step_timeout.h"
+#include "tests/eventually.h"
 
 namespace swarmanoid
 {
@@ -49,6 +55,39 @@ TEST_F(LimitsByTheEnvironment, AreNoneByATextThatIsNoNumber)
       EXPECT_EQ(limits.memory_bytes, 0U) << name << "=" << text;
       EXPECT_EQ(limits.step_s, 0) << name << "=" << text;
     }
+}
+
+constexpr Actor kSlow{Actor::kRobot, 3, "fb_3", "driver"};
+
+// Runs one step of a robot for a while under a limit.
+void StepFor(std::chrono::milliseconds time, StepTimeout::Settings settings,
+             ActivityStep step = ActivityStep::kControlStep)
+{
+  const StepTimeout watch(std::move(settings));
+  const Activity activity(kSlow, step, 7);
+  std::this_thread::sleep_for(time);
+}
+
+TEST(StepTimeoutDeathTest, AStepThatDoesNotReturnEndsTheProcess)
+{
+  using namespace std::chrono_literals;
+  const auto ends_with_4 = testing::ExitedWithCode(4);
+  EXPECT_EXIT(StepFor(test::kGenerous, {.limit = 50ms, .stalled = {}}), ends_with_4,
+              "robot 'fb_3', controller 'driver': ControlStep at tick 7 did not return within 0.05 s "
+              ".--step-timeout.");
+  EXPECT_EXIT(
+      StepFor(test::kGenerous, {.limit = 50ms, .stalled = {}, .cause = "timeout", .of = ActivityStep::kControlStep}),
+      ends_with_4, "within 0.05 s .timeout.");
+}
+
+TEST(StepTimeout, OtherStepsAndStepsWithoutALimitTakeAsLongAsTheyWant)
+{
+  using namespace std::chrono_literals;
+  StepFor(100ms, {});
+  StepFor(100ms, {.limit = 20ms, .stalled = {}}, ActivityStep::kFinish);
+  StepFor(100ms, {.limit = 20ms, .stalled = {}, .of = ActivityStep::kInit});
+  const StepTimeout watch({.limit = 20ms, .stalled = {}});
+  std::this_thread::sleep_for(100ms);  // no code of a plug-in runs
 }
 
 }  // namespace
