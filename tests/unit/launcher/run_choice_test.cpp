@@ -6,6 +6,7 @@
 
 #include "common/bus/bus.h"
 #include "common/program/usage_error.h"
+#include "common/run/access/access_grant.h"
 #include "tests/world/message_of.h"
 
 namespace swarmanoid
@@ -56,6 +57,46 @@ TEST(ChooseRun, ARunOnAnotherMachineIsTheNameAndTheDomainTogether)
   EXPECT_FALSE(there.server);
   EXPECT_NE(test::MessageOf<UsageError>([] { ChooseRun("", 231); }).find("name the experiment"), std::string::npos);
   EXPECT_THROW(ChooseRun("no_run_here_has_this_name", std::nullopt), UsageError);
+}
+
+TEST(RunOf, AnAccessGrantIsForItsExperimentOnly)
+{
+  AccessToken token;
+  token.experiment = "far";
+  token.domain = 12;
+  for (const char* name : {"", "far"})
+  {
+    const RunChoice run = RunOf(token, name);
+    EXPECT_EQ(run.experiment, "far");
+    EXPECT_EQ(run.domain, 12);
+    EXPECT_FALSE(run.server);
+  }
+  EXPECT_NE(test::MessageOf<UsageError>([&] { RunOf(token, "near"); }).find("is of experiment 'far', not of 'near'"),
+            std::string::npos);
+}
+
+TEST(CheckInsecure, BothSidesHaveAKeyOrNone)
+{
+  BusOptions secure, insecure;
+  insecure.insecure = true;
+  RunChoice run = RunHere();
+  EXPECT_NO_THROW(CheckInsecure(run, secure));
+  EXPECT_NE(test::MessageOf<UsageError>([&] { CheckInsecure(run, insecure); }).find("has a key"), std::string::npos);
+  run.lets_anybody_in = true;
+  EXPECT_NO_THROW(CheckInsecure(run, insecure));
+  EXPECT_NE(test::MessageOf<UsageError>([&] { CheckInsecure(run, secure); }).find("lets anybody in"),
+            std::string::npos);
+  run.server.reset();
+  EXPECT_NO_THROW(CheckInsecure(run, secure)) << "what a run elsewhere has is not known";
+}
+
+TEST(UseNetworkOf, LeavesADiscoveryServerThatTheUserNamed)
+{
+  BusOptions options;
+  options.discovery_server = "10.0.0.2:1";
+  UseNetworkOf(RunHere(), options);
+  EXPECT_EQ(options.discovery_server, "10.0.0.2:1");
+  EXPECT_TRUE(options.peers.empty());
 }
 
 }  // namespace

@@ -1,14 +1,23 @@
 // The experiment that is run once more to be shown.
 #include <gmock/gmock.h>
 
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
 #include "common/experiment/load_experiment.h"
 #include "launcher/showing.h"
+#include "launcher/system/command_process.h"
+#include "launcher/system/network_namespace.h"
+#include "launcher/system/scratch_folder.h"
 #include "simulation/register_all.h"
 #include "test_folders.h"
+#include "tests/eventually.h"
+#include "tests/world/temporary_folder.h"
 
 namespace swarmanoid
 {
@@ -120,6 +129,104 @@ TEST(Showing, ParametersOfAVisualisationFollowItsKind)
             "--show: 'film.webm' of 'image film.webm' must be NAME=VALUE, as in --show \"image video=film.webm\"");
   EXPECT_THAT(mistake("image vidio=film.webm"), testing::HasSubstr("did you mean 'video'"));
   EXPECT_THAT(mistake("  "), testing::HasSubstr("--show: there is no renderer"));
+}
+
+TEST(Showing, APageIsForSessionsWithADisplayOrABrowser)
+{
+  const char* const names[] = {"DISPLAY", "WAYLAND_DISPLAY", "BROWSER"};
+  for (const char* name : names) unsetenv(name);
+  EXPECT_EQ(KindForSession(), ShowingKind::kFilm);
+  for (const char* name : names)
+  {
+    setenv(name, "", 1);
+    EXPECT_EQ(KindForSession(), ShowingKind::kFilm) << name;
+    setenv(name, ":1", 1);
+    EXPECT_EQ(KindForSession(), ShowingKind::kPage) << name;
+    unsetenv(name);
+  }
+}
+
+TEST(Showing, PathsAreShortInTheCurrentFolder)
+{
+  EXPECT_EQ(ShortPath(fs::current_path() / "run" / "film.mp4"), "run/film.mp4");
+  EXPECT_EQ(ShortPath("/usr/share/film.mp4"), "/usr/share/film.mp4");
+}
+
+TEST(Showing, TablesAreNoPictures)
+{
+  Experiment experiment;
+  EXPECT_FALSE(HasPictures(experiment));
+  experiment.visualisations.resize(1);
+  experiment.visualisations[0].tag = "text_render";
+  EXPECT_FALSE(HasPictures(experiment));
+  experiment.visualisations.resize(2);
+  experiment.visualisations[1].tag = "web_render";
+  EXPECT_TRUE(HasPictures(experiment));
+}
+
+TEST(Showing, AFilmHasAtMostThreeHundredThousandRobotTicksAndAtLeastAHundredTicks)
+{
+  Experiment experiment;
+  EXPECT_EQ(TicksOfFilm(experiment, 0), 300'000U);
+  experiment.entities.resize(300);
+  for (EntityConfiguration& entity : experiment.entities) entity.kind = EntityKind::kFootbot;
+  EXPECT_EQ(TicksOfFilm(experiment, 0), 1000U);
+  experiment.max_clock = 700;
+  EXPECT_EQ(TicksOfFilm(experiment, 0), 700U);
+  EXPECT_EQ(TicksOfFilm(experiment, 5), 5U);
+  EXPECT_EQ(TicksOfFilm(experiment, 5000), 1000U);
+  experiment.entities.resize(30'000, experiment.entities[0]);
+  EXPECT_EQ(TicksOfFilm(experiment, 5000), 100U);
+  for (EntityConfiguration& entity : experiment.entities) entity.kind = EntityKind::kBlock;
+  EXPECT_EQ(TicksOfFilm(experiment, 5000), 5000U) << "blocks cost nothing";
+}
+
+TEST(CommandProcess, HasTheExitCodeAndTheErrorsOfItsProgram)
+{
+  const test::TemporaryFolder folder;
+  const std::string errors = folder / "errors";
+  CommandProcess failed({"sh", "-c", "echo one >&2; echo two >&2; exit 3"}, errors);
+  EXPECT_EQ(failed.Wait(), 3);
+  EXPECT_TRUE(failed.Ended());
+  EXPECT_EQ(failed.Wait(), 3);
+  EXPECT_EQ(FirstLineOf(errors), "one");
+  EXPECT_EQ(FirstLineOf(folder / "none"), "");
+  EXPECT_EQ(CommandProcess({"sh", "-c", "kill -9 $$"}, errors).Wait(), 4) << "a failed process";
+  EXPECT_EQ(FirstLineOf(errors), "") << "the file begins again";
+  CommandProcess good({"true"}, errors);
+  EXPECT_TRUE(test::Eventually([&] { return good.Ended(); }));
+  EXPECT_EQ(good.Wait(), 0);
+  EXPECT_THROW(CommandProcess({"sh"}, folder / "missing" / "errors"), std::runtime_error);
+}
+
+TEST(CommandProcess, AloneReactsToCtrlC)
+{
+  {
+    const InterruptsLeftToHelper interrupts;
+    EXPECT_EQ(std::raise(SIGINT), 0);
+  }
+  const auto before = std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGINT, before);
+  EXPECT_NE(before, SIG_IGN);
+}
+
+TEST(ScratchFolder, IsRemovedWithItsContent)
+{
+  std::string path;
+  {
+    const ScratchFolder folder;
+    path = folder.Path();
+    std::ofstream(path + "/file") << "content";
+    EXPECT_TRUE(fs::exists(path + "/file"));
+    EXPECT_NE(ScratchFolder().Path(), path);
+  }
+  EXPECT_FALSE(fs::exists(path));
+}
+
+TEST(NetworkNamespace, IsThatOfThisProcess)
+{
+  EXPECT_FALSE(IsInAnotherNetwork(getpid()));
+  EXPECT_NO_THROW(EnterNetworkOf(getpid()));
 }
 
 }  // namespace

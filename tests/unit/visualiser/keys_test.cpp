@@ -8,6 +8,8 @@
 #include "visualiser/interaction/frame_schedule.h"
 #include "visualiser/interaction/keys.h"
 #include "visualiser/interaction/value_history.h"
+#include "visualiser/scene/enlargement.h"
+#include "visualiser/scene/floor_grid.h"
 
 namespace swarmanoid
 {
@@ -131,6 +133,68 @@ TEST(ValueHistory, AValueOfTheSameTickTakesThePlaceOfTheOneBefore)
   history.Add(1, 6);
   ASSERT_EQ(history.Points().size(), 1u);
   EXPECT_EQ(history.Points()[0].value, 6);
+}
+
+TEST(FrameSchedule, DrawsForAWhileAfterInputAndOnceASecondAtRest)
+{
+  FrameSchedule schedule(1, 10, false);
+  EXPECT_TRUE(schedule.AtTick(0, 0));
+  schedule.Drawn(0);
+  EXPECT_FALSE(schedule.AtIdle(0.5));
+  EXPECT_TRUE(schedule.AtIdle(1)) << "panels refresh";
+  schedule.Activity(0.5);
+  EXPECT_TRUE(schedule.AtIdle(0.5));
+  EXPECT_FALSE(schedule.AtIdle(0.05)) << "no faster than its rate";
+  for (int frame = 0; frame < 4; ++frame)
+  {
+    EXPECT_TRUE(schedule.AtIdle(2 + frame)) << "four frames, however slow they are";
+    schedule.Drawn(2 + frame);
+  }
+  EXPECT_FALSE(schedule.AtIdle(5.5));
+  schedule.Activity(10);
+  for (const double now : {10.0, 10.05, 10.1, 10.2}) schedule.Drawn(now);
+  EXPECT_TRUE(schedule.AtIdle(10.35)) << "0.4 s";
+  EXPECT_FALSE(schedule.AtIdle(10.45));
+}
+
+TEST(ValueHistory, APointThatIsNotLaterReplacesTheLastOne)
+{
+  ValueHistory history;
+  history.Add(1, 5);
+  history.Add(1, 6);
+  history.Add(0.5, 7);
+  ASSERT_EQ(history.Points().size(), 1U);
+  EXPECT_EQ(history.Points()[0].time, 1);
+  EXPECT_EQ(history.Points()[0].value, 7);
+  for (int k = 2; k <= 2400; ++k) history.Add(k, k);
+  EXPECT_EQ(history.Points().size(), 2400U);
+  history.Add(2401, 0);
+  EXPECT_EQ(history.Points().size(), 1201U);
+  EXPECT_EQ(history.Points().front().time, 1201);
+}
+
+TEST(FloorSpacing, IsTheSmallestWithAtMostFourteenCells)
+{
+  const std::pair<double, double> rows[] = {{0.5, 0.1}, {1.4, 0.1}, {1.5, 0.25}, {3.5, 0.25}, {3.6, 0.5}, {7, 0.5},
+                                            {8, 1},     {14, 1},    {15, 2},     {28, 2},     {70, 5},    {140, 10},
+                                            {280, 20},  {700, 50},  {1400, 100}, {9000, 100}};
+  for (const auto& [side, spacing] : rows)
+  {
+    EXPECT_EQ(FloorSpacing({side, 0.2, 1}), spacing) << side;
+    EXPECT_EQ(FloorSpacing({0.2, side, 99}), spacing) << side;
+  }
+}
+
+TEST(Enlargement, GivesSmallRobotsTheLeastWidthUpToEightTimesTheirOwn)
+{
+  EXPECT_FLOAT_EQ(Enlargement(10, 5), 1);
+  EXPECT_FLOAT_EQ(Enlargement(5, 5), 1);
+  EXPECT_FLOAT_EQ(Enlargement(2, 5), 2.5F);
+  EXPECT_FLOAT_EQ(Enlargement(0.5F, 5), 8);
+  EXPECT_FLOAT_EQ(Enlargement(0, 5), 8);
+  EXPECT_EQ(EnlargementText(1.1F), "");
+  EXPECT_EQ(EnlargementText(1.25F), "robots up to 1.2 times as wide");
+  EXPECT_EQ(EnlargementText(2.8F), "robots up to 2.8 times as wide");
 }
 
 }  // namespace

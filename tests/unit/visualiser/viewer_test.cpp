@@ -1,8 +1,10 @@
 // Tests the input of a user at a window, without the window: keys, mouse, selection, filter, plots, requests to the
 // run.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "common/configuration/xml_reader.h"
@@ -361,6 +363,286 @@ TEST_F(ViewerTest, ValuesReadAsPeopleReadThem)
   EXPECT_EQ(text("led 4"), "off");
   EXPECT_EQ(text("gripped"), "stone");
   EXPECT_EQ(text("turret angle"), "0.000 rad");
+}
+
+TEST_F(ViewerTest, EachPanelAndOptionIsSwitchedByItsAction)
+{
+  Viewer& viewer = Make();
+  Viewer::Shown& shown = viewer.shown;
+  const std::tuple<Action, bool*, bool, const char*> rows[] = {
+      {Action::kHelp, &shown.help, false, ""},
+      {Action::kRunPanel, &shown.run, true, ""},
+      {Action::kEntityPanel, &shown.entities, true, ""},
+      {Action::kPlotPanel, &shown.plots, true, ""},
+      {Action::kTimelinePanel, &shown.timeline, true, ""},
+      {Action::kAllPanels, &shown.panels, true, ""},
+      {Action::kTextures, &shown.textures, true, "textures"},
+      {Action::kShadows, &shown.shadows, true, "shadows"},
+      {Action::kCollisionModels, &shown.scene.collision_models, false, "collision models"},
+      {Action::kIds, &shown.scene.ids, false, "ids"},
+      {Action::kTrails, &shown.scene.trails, false, "trails"},
+      {Action::kRays, &shown.scene.rays, false, "rays"},
+      {Action::kBeams, &shown.scene.beams, true, "laser beams"}};
+  for (const auto& [action, option, at_first, name] : rows)
+    for (const bool now : {!at_first, at_first})
+    {
+      EXPECT_EQ(*option, !now) << name << static_cast<int>(action);
+      viewer.Do({action});
+      EXPECT_EQ(*option, now) << name << static_cast<int>(action);
+      if (*name == 0) continue;
+      EXPECT_EQ(viewer.Messages().back().text, std::string(name) + (now ? " on" : " off"));
+    }
+}
+
+TEST_F(ViewerTest, ParametersOfTheFileSetTheOptions)
+{
+  const std::pair<const char*, bool (*)(const Viewer::Shown&)> rows[] = {
+      {"use_textures", [](const Viewer::Shown& shown) { return shown.textures; }},
+      {"use_shadows", [](const Viewer::Shown& shown) { return shown.shadows; }},
+      {"show_ids", [](const Viewer::Shown& shown) { return shown.scene.ids; }},
+      {"show_trails", [](const Viewer::Shown& shown) { return shown.scene.trails; }},
+      {"show_rays", [](const Viewer::Shown& shown) { return shown.scene.rays; }},
+      {"show_collision_models", [](const Viewer::Shown& shown) { return shown.scene.collision_models; }}};
+  for (const auto& [name, is_shown] : rows)
+    for (const bool wanted : {true, false})
+      EXPECT_EQ(is_shown(Make(fmt::format("<{0}>{1}</{0}>", name, wanted)).shown), wanted) << name;
+}
+
+TEST_F(ViewerTest, HelpIsShownWithThePanelsAndClosedBeforeTheSelection)
+{
+  Viewer& viewer = Make();
+  viewer.Select(Index("fb_0"));
+  viewer.Do({Action::kHelp});
+  viewer.Do({Action::kAllPanels});
+  EXPECT_FALSE(viewer.shown.panels);
+  viewer.Do({Action::kHelp});
+  EXPECT_TRUE(viewer.shown.help && viewer.shown.panels) << "hidden panels have no help to close";
+  viewer.Do({Action::kDeselect});
+  EXPECT_FALSE(viewer.shown.help);
+  EXPECT_TRUE(viewer.shown.scene.selected);
+  viewer.Do({Action::kDeselect});
+  EXPECT_FALSE(viewer.shown.scene.selected);
+}
+
+TEST_F(ViewerTest, APictureIsTakenOnceAndAWindowClosesForGood)
+{
+  Viewer& viewer = Make();
+  EXPECT_FALSE(viewer.TakePictureRequest() || viewer.WantsToClose());
+  viewer.Do({Action::kPicture});
+  EXPECT_TRUE(viewer.TakePictureRequest());
+  EXPECT_FALSE(viewer.TakePictureRequest());
+  viewer.Do({Action::kClose});
+  EXPECT_TRUE(viewer.WantsToClose());
+  EXPECT_TRUE(viewer.WantsToClose());
+}
+
+TEST_F(ViewerTest, ArrowKeysTurnByFiveDegreesAndZoomByAFactor)
+{
+  Viewer& viewer = Make();
+  const auto change = [&](Action action)
+  {
+    const Camera before = viewer.camera;
+    const Vector3 pivot = PointOnFloor(before.RayThrough(kWidth / 2.0, kHeight / 2.0, kWidth, kHeight), 0, 10);
+    viewer.Do({action});
+    const double nearer = (viewer.camera.position - pivot).norm() / (before.position - pivot).norm();
+    return Vector3(viewer.camera.heading - before.heading, viewer.camera.pitch - before.pitch, nearer);
+  };
+  const std::pair<Action, Vector3> rows[] = {{Action::kOrbitLeft, {5, 0, 1}}, {Action::kOrbitRight, {-5, 0, 1}},
+                                             {Action::kOrbitUp, {0, -5, 1}},  {Action::kOrbitDown, {0, 5, 1}},
+                                             {Action::kZoomIn, {0, 0, 0.85}}, {Action::kZoomOut, {0, 0, 1 / 0.85}}};
+  for (const auto& [action, wanted] : rows)
+  {
+    const Vector3 changed = change(action);
+    EXPECT_LT((changed - wanted).norm(), 1e-6) << static_cast<int>(action) << ": " << changed.transpose();
+  }
+  const Vector3 floor = PointOnFloor(viewer.camera.RayThrough(300, 350, kWidth, kHeight), 0, 10);
+  const double before = (viewer.camera.position - floor).norm();
+  viewer.Wheel(1, 300, 350);
+  EXPECT_NEAR((viewer.camera.position - floor).norm() / before, 0.88, 1e-6) << "towards what is under the mouse";
+  EXPECT_NEAR(OnScreen(floor).x(), 300, 1e-6);
+}
+
+TEST_F(ViewerTest, SpeedsAreTheStepsOfAScaleWithTheFastestAtItsEnd)
+{
+  Viewer& viewer = Make();
+  const double speeds[] = {0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 0};
+  std::vector<std::string> wanted;
+  for (std::size_t k = 0; k + 1 < std::size(speeds); ++k)
+  {
+    monitor_.status.speed_wanted = speeds[k];
+    viewer.Do({Action::kFaster});
+    wanted.push_back(fmt::format("speed {}", speeds[k + 1]));
+    monitor_.status.speed_wanted = speeds[k + 1];
+    viewer.Do({Action::kSlower});
+    wanted.push_back(fmt::format("speed {}", speeds[k]));
+  }
+  monitor_.status.speed_wanted = 0.1;
+  viewer.Do({Action::kSlower});
+  wanted.emplace_back("speed 0.1");
+  monitor_.status.speed_wanted = 0;
+  viewer.Do({Action::kFaster});
+  wanted.emplace_back("speed 0");
+  EXPECT_EQ(control_.asked, wanted);
+}
+
+TEST_F(ViewerTest, OnlyWhoMaySteerSendsRequests)
+{
+  Viewer& viewer = Make();
+  viewer.Reset();
+  viewer.SetSpeed(3);
+  viewer.MoveEntity(Index("fb_1"), Pose());
+  EXPECT_THAT(control_.asked, ElementsAre("reset", "speed 3", "move fb_1"));
+  control_.asked.clear();
+  Viewer& watcher = Make("", false);
+  watcher.Do({Action::kStep});
+  EXPECT_THAT(watcher.Messages(), IsEmpty());
+  const std::function<void()> requests[] = {[&] { watcher.Reset(); }, [&] { watcher.SetSpeed(3); },
+                                            [&] { watcher.MoveEntity(Index("fb_1"), Pose()); },
+                                            [&] { watcher.Do({Action::kPause}); }};
+  for (std::size_t k = 0; k < std::size(requests); ++k)
+  {
+    requests[k]();
+    ASSERT_EQ(watcher.Messages().size(), k + 1);
+    EXPECT_EQ(watcher.Messages().back().text, "this visualisation may only watch");
+    EXPECT_TRUE(watcher.Messages().back().refused);
+  }
+  EXPECT_THAT(control_.asked, IsEmpty());
+}
+
+TEST_F(ViewerTest, TheLatestFiveMessagesAreShown)
+{
+  Viewer& viewer = Make();
+  for (int k = 0; k < 7; ++k) viewer.Say(fmt::format("{}", k));
+  ASSERT_EQ(viewer.Messages().size(), 5u);
+  EXPECT_EQ(viewer.Messages().front().text, "2");
+  EXPECT_FALSE(viewer.Messages().front().refused);
+}
+
+TEST_F(ViewerTest, AClickMayMoveByFourPixels)
+{
+  Viewer& viewer = Make();
+  const auto drag = [&](double pixels)
+  {
+    viewer.Deselect();
+    const Vector3 place = OnScreen("fb_1");
+    viewer.MousePress(MouseButton::kLeft, place.x(), place.y(), false, false);
+    viewer.MousePress(MouseButton::kRight, 0, 0, false, false);  // one drag at a time
+    viewer.MouseMove(place.x() + pixels, place.y());
+    viewer.MouseRelease(MouseButton::kRight);
+    viewer.MouseRelease(MouseButton::kLeft);
+    return viewer.shown.scene.selected.has_value();
+  };
+  const Vector3 before = viewer.camera.position;
+  EXPECT_TRUE(drag(4));
+  EXPECT_EQ(viewer.camera.position, before);
+  EXPECT_FALSE(drag(4.5));
+  EXPECT_NE(viewer.camera.position, before);
+}
+
+TEST_F(ViewerTest, EntitiesAreMovedWithinTheArena)
+{
+  Viewer& viewer = Make();
+  viewer.Do({Action::kFromAbove});
+  const Vector3 from = OnScreen(Vector3(1, 1, 0));
+  viewer.MousePress(MouseButton::kLeft, from.x(), from.y(), false, true);
+  ASSERT_TRUE(viewer.MoveUnderWay());
+  const std::pair<Vector3, Vector3> rows[] = {{{-0.5, 2, 0}, {0, 2, 0}},
+                                              {{4.5, 2, 0}, {4, 2, 0}},
+                                              {{2, -0.5, 0}, {2, 0, 0}},
+                                              {{2, 4.5, 0}, {2, 4, 0}},
+                                              {{2, 3, 0}, {2, 3, 0}}};
+  for (const auto& [to, place] : rows)
+  {
+    const Vector3 pixel = OnScreen(to);
+    viewer.MouseMove(pixel.x(), pixel.y());
+    EXPECT_LT((viewer.MoveUnderWay()->pose.position - place).norm(), 0.1) << place.transpose();
+  }
+}
+
+TEST_F(ViewerTest, AVisitLooksAtTheEntityFromNearby)
+{
+  Viewer& viewer = Make();
+  for (const auto& [pitch, allowed] : {std::pair(-85.0, -60.0), std::pair(0.0, -20.0), std::pair(-40.0, -40.0)})
+  {
+    viewer.camera.pitch = pitch;
+    viewer.camera.roll = 3;
+    viewer.Visit(Index("eb"));
+    EXPECT_EQ(viewer.camera.pitch, allowed);
+    EXPECT_EQ(viewer.camera.roll, 0);
+    const Vector3 pixel = OnScreen(Vector3(1, 3, 1));
+    EXPECT_NEAR(pixel.x(), kWidth / 2.0, 1e-6);
+    EXPECT_NEAR(pixel.y(), kHeight / 2.0, 1e-6);
+    EXPECT_NEAR(pixel.z(), 1.2 + 2 * 0.566, 1e-6) << "twice its size, and a bit";
+  }
+}
+
+TEST_F(ViewerTest, FollowingAndThePastNeedSomethingToFollowAndAJournal)
+{
+  Viewer& viewer = Make();
+  viewer.Do({Action::kFollow});
+  EXPECT_FALSE(viewer.follows);
+  EXPECT_THAT(viewer.Messages().back().text, HasSubstr("click on an entity first"));
+  viewer.Select(Index("fb_0"));
+  viewer.Do({Action::kFollow});
+  EXPECT_TRUE(viewer.follows);
+  EXPECT_EQ(viewer.Messages().back().text, "following 'fb_0' on");
+  viewer.Do({Action::kWholeArena});
+  EXPECT_FALSE(viewer.follows);
+  for (const Action action : {Action::kTickBack, Action::kTickForward, Action::kEventBack, Action::kEventForward,
+                              Action::kPlayPast, Action::kBranch})
+  {
+    viewer.Say("");
+    viewer.Do({action});
+    EXPECT_EQ(viewer.Messages().back().text, "there is nothing to look back at: the run keeps no journal here");
+  }
+  viewer.Do({Action::kInspectPast});
+  EXPECT_THAT(viewer.Messages().back().text, HasSubstr("look back and select a robot"));
+  EXPECT_FALSE(viewer.FollowPast());
+}
+
+TEST_F(ViewerTest, NumbersHaveThreePlacesOrFourDigits)
+{
+  Make();
+  const auto text = [&](double value, const std::string& unit) { return ValueText(world_.Space(), {"", unit, value}); };
+  EXPECT_EQ(text(1.23456, "m"), "1.235 m");
+  EXPECT_EQ(text(-0.0004, "m"), "0.000 m");
+  EXPECT_EQ(text(-0.0006, ""), "-0.001");
+  EXPECT_EQ(text(99999, ""), "99999.000");
+  EXPECT_EQ(text(123456, ""), "1.235e+05");
+  EXPECT_EQ(text(1, "yes/no"), "yes");
+  EXPECT_EQ(text(0, "yes/no"), "no");
+  EXPECT_EQ(text(0xffffff, "colour"), "#ffffff");
+  EXPECT_EQ(text(0x0a0b0c, "colour"), "#0a0b0c");
+  EXPECT_EQ(text(0, "entity"), "none");
+  EXPECT_EQ(text(4, "entity"), "stone");
+  EXPECT_EQ(text(5, "entity"), "none");
+  EXPECT_EQ(WholeNumber(7, 7), 7U);
+  EXPECT_FALSE(WholeNumber(8, 7));
+  EXPECT_EQ(WholeNumber(0, 7), 0U);
+}
+
+TEST_F(ViewerTest, AttributesHaveTheirUnits)
+{
+  world_.Add(EntityKind::kHandbot, "hb", {2, 2, 0});
+  world_.Add(EntityKind::kLightBulb, "light", {2, 2, 1});
+  Make();
+  const auto unit = [&](const std::string& id, const std::string& name)
+  {
+    const auto found = FindValue(ValuesOf(world_.Space(), Index(id), {}, nullptr),
+                                 {Index(id), ValueGroup::Source::kAttributes, "attributes", name});
+    return found ? found->unit : "missing";
+  };
+  const std::tuple<const char*, const char*, const char*> rows[] = {
+      {"fb_0", "led 0", "colour"},         {"fb_0", "led 11", "colour"},
+      {"fb_0", "beacon", "colour"},        {"fb_0", "gripped", "entity"},
+      {"fb_0", "gripper aperture", "rad"}, {"fb_0", "turret angle", "rad"},
+      {"hb", "gripped 1", "entity"},       {"hb", "arm 0", "rad"},
+      {"hb", "rope attached", "yes/no"},   {"hb", "rope length", "m"},
+      {"eb", "laser", "yes/no"},           {"eb", "laser colour", "colour"},
+      {"eb", "laser pan", "rad"},          {"eb", "attached", "yes/no"},
+      {"stone", "colour", "colour"},       {"light", "intensity", ""},
+      {"fb_0", "message 0", "missing"}};
+  for (const auto& [id, name, wanted] : rows) EXPECT_EQ(unit(id, name), wanted) << id << " " << name;
 }
 
 // Returns the inspector's lines for one entity: "group.value=text", in its order, without the attributes.
