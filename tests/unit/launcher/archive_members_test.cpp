@@ -20,7 +20,7 @@ namespace
 {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using ListJson = nlohmann::ordered_json;
 using testing::HasSubstr;
 
 std::string RandomBytes(std::size_t count)
@@ -160,20 +160,20 @@ TEST(ArchiveMembers, AreReadAgainFromTheirList)
   EXPECT_THAT(mistake({{"b", 0, ""}, {"a", 0, ""}}), HasSubstr("order"));
   EXPECT_THAT(mistake({{"a", 0, ""}, {"a", 0, ""}}), HasSubstr("order"));
   EXPECT_THAT(mistake({{"../a", 0, ""}}), HasSubstr("is not allowed"));
-  EXPECT_EQ(CountIn(Json{{"n", 3U}}, "n"), 3U);
-  EXPECT_THROW(CountIn(Json{{"n", -3}}, "n"), std::runtime_error);
-  EXPECT_THROW(CountIn(Json{{"n", 0.5}}, "n"), std::runtime_error);
+  EXPECT_EQ(CountIn(ListJson{{"n", 3U}}, "n"), 3U);
+  EXPECT_THROW(CountIn(ListJson{{"n", -3}}, "n"), std::runtime_error);
+  EXPECT_THROW(CountIn(ListJson{{"n", 0.5}}, "n"), std::runtime_error);
 }
 
 TEST(ArchiveMembers, TheFormatHasItsNameAndVersion)
 {
   const auto mistake = [](const char* format, unsigned version)
   {
-    const Json list{{"format", format}, {"version", version}, {"swarmanoid", "9.0"}};
+    const ListJson list{{"format", format}, {"version", version}, {"swarmanoid", "9.0"}};
     return test::MessageOf<std::runtime_error>([&] { CheckFormat(list, "swarmanoid archive", 2, "archives"); });
   };
   EXPECT_NO_THROW(
-      CheckFormat(Json{{"format", "swarmanoid archive"}, {"version", 2U}}, "swarmanoid archive", 2, "archives"));
+      CheckFormat(ListJson{{"format", "swarmanoid archive"}, {"version", 2U}}, "swarmanoid archive", 2, "archives"));
   EXPECT_THAT(mistake("swarmanoid package", 2), HasSubstr("another name"));
   EXPECT_THAT(mistake("swarmanoid archive", 3), HasSubstr("version 3 of archives, made by Swarmanoid '9.0'"));
   EXPECT_THAT(mistake("swarmanoid archive", 3), HasSubstr("install a newer Swarmanoid"));

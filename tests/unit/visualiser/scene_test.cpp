@@ -17,12 +17,12 @@ namespace
 
 using Eigen::Vector3f;
 
-void ExpectNear(const Vector3f& a, const Vector3f& b, float tolerance = 1e-5F)
+void ExpectPlace(const Vector3f& a, const Vector3f& b, float tolerance = 1e-5F)
 {
   EXPECT_LE((a - b).norm(), tolerance) << a.transpose() << " and " << b.transpose();
 }
 
-SceneOptions With(bool SceneOptions::*option, bool value = true)
+SceneOptions SceneWith(bool SceneOptions::*option, bool value = true)
 {
   SceneOptions options;
   options.*option = value;
@@ -82,27 +82,27 @@ TEST_F(SceneTest, ALaserShinesDownToTheFloorOrTheFirstBody)
   EXPECT_TRUE(Updated().Lines().empty());
   world_.Set("eb", "laser", 1);
   const SceneLine beam = LinesOf(0xff0000).at(0);
-  ExpectNear(beam.from, {2, 2, 1.5F});
-  ExpectNear(beam.to, {2, 2, 0});
+  ExpectPlace(beam.from, {2, 2, 1.5F});
+  ExpectPlace(beam.to, {2, 2, 0});
   EXPECT_EQ(beam.width, 2.5F);
   EXPECT_EQ(beam.opacity_from, 0.35F);
   EXPECT_EQ(beam.opacity_to, 0.8F);
   ASSERT_EQ(scene_->Glows().size(), 1U);
-  ExpectNear(scene_->Glows()[0].position, {2, 2, 0});
+  ExpectPlace(scene_->Glows()[0].position, {2, 2, 0});
   EXPECT_EQ(scene_->Glows()[0].radius, 0.09F);
   EXPECT_EQ(scene_->Glows()[0].colour, 0xff0000U);
   EXPECT_TRUE(scene_->Glows()[0].flat);
-  EXPECT_TRUE(Updated(With(&SceneOptions::beams, false)).Lines().empty());
+  EXPECT_TRUE(Updated(SceneWith(&SceneOptions::beams, false)).Lines().empty());
 
   world_.Space().SetPose(Index("prey"), {{2, 2, 0}, Quaternion::Identity()});
-  ExpectNear(LinesOf(0xff0000).at(0).to, {2, 2, 0.2F});
+  ExpectPlace(LinesOf(0xff0000).at(0).to, {2, 2, 0.2F});
   EXPECT_EQ(scene_->Glows().size(), 1U);
   world_.Space().SetPose(Index("prey"), {{3, 1, 0}, Quaternion::Identity()});
   world_.Set("eb", "laser_tilt", std::atan2(0.5, 1.5));
   world_.Set("eb", "laser_pan", kPi / 2);
-  ExpectNear(LinesOf(0xff0000).at(0).to, {2, 2.5F, 0});
+  ExpectPlace(LinesOf(0xff0000).at(0).to, {2, 2.5F, 0});
   world_.Set("eb", "laser_tilt", kPi);
-  ExpectNear(LinesOf(0xff0000).at(0).to, {2, 2, 31.5F}, 1e-3F);
+  ExpectPlace(LinesOf(0xff0000).at(0).to, {2, 2, 31.5F}, 1e-3F);
   EXPECT_TRUE(scene_->Glows().empty()) << "it meets nothing";
   world_.Set("eb", "laser_colour", 0);
   EXPECT_TRUE(Updated().Lines().empty());
@@ -114,7 +114,7 @@ TEST_F(SceneTest, ARopeHangsStraightFromTheCeiling)
   ASSERT_EQ(Updated().Lines().size(), 1U);
   const SceneLine rope = scene_->Lines()[0];
   EXPECT_FLOAT_EQ(rope.from.z(), 0.16F);
-  ExpectNear(rope.to, {rope.from.x(), rope.from.y(), 2});
+  ExpectPlace(rope.to, {rope.from.x(), rope.from.y(), 2});
   EXPECT_LT((rope.from - Vector3f(3, 3, 0.16F)).norm(), 0.12F);
   EXPECT_EQ(rope.width, 2);
   EXPECT_EQ(rope.opacity_from, 1);
@@ -144,7 +144,7 @@ TEST_F(SceneTest, LightsGlowInTheirColourWhileTheyAreOn)
   world_.Add(EntityKind::kLightBulb, "light", {1, 2, 1});
   world_.Set("light", "colour", 0x102030);
   ASSERT_EQ(Updated().Glows().size(), 1U);
-  ExpectNear(scene_->Glows()[0].position, {1, 2, 1});
+  ExpectPlace(scene_->Glows()[0].position, {1, 2, 1});
   EXPECT_EQ(scene_->Glows()[0].radius, 0.35F);
   EXPECT_EQ(scene_->Glows()[0].colour, 0x102030U);
   EXPECT_FALSE(scene_->Glows()[0].flat);
@@ -155,20 +155,20 @@ TEST_F(SceneTest, LightsGlowInTheirColourWhileTheyAreOn)
 TEST_F(SceneTest, LabelsAreAboveWhatMovesAndAboveTheSelected)
 {
   EXPECT_TRUE(Updated().Labels().empty());
-  ASSERT_EQ(Updated(With(&SceneOptions::ids)).Labels().size(), 4U) << "the block cannot move";
+  ASSERT_EQ(Updated(SceneWith(&SceneOptions::ids)).Labels().size(), 4U) << "the block cannot move";
   EXPECT_EQ(scene_->Labels()[0].text, "fb");
   EXPECT_EQ(scene_->Labels()[0].entity, Index("fb"));
-  ExpectNear(scene_->Labels()[0].position, {1, 1, 0.33F});
+  ExpectPlace(scene_->Labels()[0].position, {1, 1, 0.33F});
   EXPECT_EQ(scene_->Labels()[3].text, "prey");
-  ExpectNear(scene_->Labels()[3].position, {3, 1, 0.26F});
+  ExpectPlace(scene_->Labels()[3].position, {3, 1, 0.26F});
   const std::vector<std::string> names{"a", "b", "c", "d", "e"};
-  SceneOptions named = With(&SceneOptions::ids);
+  SceneOptions named = SceneWith(&SceneOptions::ids);
   named.names = names;
   EXPECT_EQ(Updated(named).Labels()[1].text, "b");
   ASSERT_EQ(Updated(Selecting(Index("block"))).Labels().size(), 1U);
   EXPECT_EQ(scene_->Labels()[0].text, "block");
   world_.Space().SetAttribute(world_.Space().PresenceSlot(Index("fb")), 0);
-  EXPECT_EQ(Updated(With(&SceneOptions::ids)).Labels().size(), 3U);
+  EXPECT_EQ(Updated(SceneWith(&SceneOptions::ids)).Labels().size(), 3U);
 }
 
 TEST_F(SceneTest, TheSelectedHasItsOutlineOverAllBodies)
@@ -181,21 +181,21 @@ TEST_F(SceneTest, TheSelectedHasItsOutlineOverAllBodies)
   };
   const std::vector<SceneLine> block = LinesOf(palette::kSelection, Selecting(Index("block")));
   EXPECT_EQ(block.size(), 12U) << "the edges of a box";
-  ExpectNear(box_of(block).min(), {0.9F, 2.7F, 0});
-  ExpectNear(box_of(block).max(), {1.1F, 3.3F, 0.4F});
+  ExpectPlace(box_of(block).min(), {0.9F, 2.7F, 0});
+  ExpectPlace(box_of(block).max(), {1.1F, 3.3F, 0.4F});
   EXPECT_EQ(block[0].width, 2.5F);
   EXPECT_EQ(block[0].opacity_from, 0.9F);
   EXPECT_TRUE(block[0].on_top);
   const std::vector<SceneLine> prey = LinesOf(palette::kSelection, Selecting(Index("prey")));
   EXPECT_EQ(prey.size(), 2U * 24 + 4) << "two circles and four lines between them";
-  ExpectNear(box_of(prey).min(), {2.9F, 0.9F, 0});
-  ExpectNear(box_of(prey).max(), {3.1F, 1.1F, 0.2F});
+  ExpectPlace(box_of(prey).min(), {2.9F, 0.9F, 0});
+  ExpectPlace(box_of(prey).max(), {3.1F, 1.1F, 0.2F});
 }
 
 TEST_F(SceneTest, CollisionModelsAreThoseOfTheEngines)
 {
   EXPECT_TRUE(LinesOf(palette::kCollision).empty());
-  const std::vector<SceneLine> lines = LinesOf(palette::kCollision, With(&SceneOptions::collision_models));
+  const std::vector<SceneLine> lines = LinesOf(palette::kCollision, SceneWith(&SceneOptions::collision_models));
   EXPECT_FALSE(lines.empty());
   const auto near = [&](const Vector3f& place, float reach)
   {
@@ -210,7 +210,7 @@ TEST_F(SceneTest, CollisionModelsAreThoseOfTheEngines)
 
 TEST_F(SceneTest, TrailsHaveThePlacesOfTheLastMetresAndFade)
 {
-  const SceneOptions options = With(&SceneOptions::trails);
+  const SceneOptions options = SceneWith(&SceneOptions::trails);
   const Colour colour = LookOf(Material::kFootbot).colour;
   const auto go = [&](double x)
   {
@@ -222,9 +222,9 @@ TEST_F(SceneTest, TrailsHaveThePlacesOfTheLastMetresAndFade)
   ASSERT_EQ(go(1.04).size(), 1U);
   const std::vector<SceneLine> two = go(1.1);
   ASSERT_EQ(two.size(), 2U);
-  ExpectNear(two[0].from, {1.1F, 1, 0.012F});
-  ExpectNear(two[0].to, {1.04F, 1, 0.012F});
-  ExpectNear(two[1].to, {1, 1, 0.012F});
+  ExpectPlace(two[0].from, {1.1F, 1, 0.012F});
+  ExpectPlace(two[0].to, {1.04F, 1, 0.012F});
+  ExpectPlace(two[1].to, {1, 1, 0.012F});
   EXPECT_EQ(two[0].width, 2);
   EXPECT_FLOAT_EQ(two[0].opacity_from, 0.75F);
   EXPECT_FLOAT_EQ(two[0].opacity_to, 0.75F * (1 - 1 / 160.0F));
@@ -244,13 +244,13 @@ TEST_F(SceneTest, TrailsHaveThePlacesOfTheLastMetresAndFade)
 
 TEST_F(SceneTest, ATrailIsRecordedBetweenPicturesToo)
 {
-  Updated(With(&SceneOptions::trails));
+  Updated(SceneWith(&SceneOptions::trails));
   for (const double x : {1.1, 1.2, 1.3})
   {
     world_.Space().SetPose(Index("fb"), {{x, 1, 0}, Quaternion::Identity()});
     scene_->Track();
   }
-  EXPECT_EQ(LinesOf(LookOf(Material::kFootbot).colour, With(&SceneOptions::trails)).size(), 3U);
+  EXPECT_EQ(LinesOf(LookOf(Material::kFootbot).colour, SceneWith(&SceneOptions::trails)).size(), 3U);
 }
 
 TEST_F(SceneTest, RaysOfProximitySensorsHaveTheirRange)
@@ -260,7 +260,7 @@ TEST_F(SceneTest, RaysOfProximitySensorsHaveTheirRange)
   experiment.controllers[0].sensors[0].type = "footbot_proximity";
   experiment.entities[0].controller = "c";
   EXPECT_TRUE(LinesOf(palette::kRayFree).empty());
-  for (const SceneOptions& options : {With(&SceneOptions::rays), Selecting(0)})
+  for (const SceneOptions& options : {SceneWith(&SceneOptions::rays), Selecting(0)})
   {
     const std::vector<SceneLine> rays = LinesOf(palette::kRayFree, options);
     EXPECT_EQ(rays.size(), 24U);
@@ -277,7 +277,7 @@ TEST_F(SceneTest, ItemsStandWhereTheirEntitiesDo)
 {
   const std::vector<SceneItem> footbot = ItemsOf("fb");
   ASSERT_EQ(footbot.size(), 4U) << "base, turret, two jaws";
-  ExpectNear(footbot[0].position, {1, 1, 0});
+  ExpectPlace(footbot[0].position, {1, 1, 0});
   EXPECT_NEAR(footbot[1].orientation.angularDistance(footbot[0].orientation), 0, 1e-3);
   world_.Set("fb", "turret_angle", 0.5);
   world_.Set("fb", "gripper_aperture", 0.25);
@@ -286,7 +286,7 @@ TEST_F(SceneTest, ItemsStandWhereTheirEntitiesDo)
   EXPECT_NEAR(turned[2].orientation.angularDistance(turned[1].orientation), 0.25, 1e-3);
   EXPECT_GT((turned[1].orientation * Vector3f::UnitX()).dot(Vector3f(-1, 0, 0)), 0) << "to the left";
   const SceneItem prey = ItemsOf("prey").at(0);
-  ExpectNear(prey.scale, {0.1F, 0.1F, 0.2F});
+  ExpectPlace(prey.scale, {0.1F, 0.1F, 0.2F});
   EXPECT_EQ(prey.tint, Paint(0xff0000));
   EXPECT_EQ(prey.role, SceneItem::Role::kBody);
   EXPECT_TRUE(prey.present);
@@ -297,8 +297,8 @@ TEST_F(SceneTest, ItemsStandWhereTheirEntitiesDo)
   const SceneItem& floor = scene_->Items()[0];
   EXPECT_EQ(floor.entity, kNoEntity);
   EXPECT_EQ(floor.role, SceneItem::Role::kFloor);
-  ExpectNear(floor.position, {2, 2, 0});
-  ExpectNear(floor.scale, {4, 4, 1});
+  ExpectPlace(floor.position, {2, 2, 0});
+  ExpectPlace(floor.scale, {4, 4, 1});
 }
 
 TEST_F(SceneTest, HandsOfAHandbotMoveWithHeadArmsWristsAndFingers)
@@ -344,8 +344,8 @@ TEST_F(SceneTest, AreasLieOnOneAnotherInTheOrderOfTheFile)
   world_.AddBody(EntityKind::kHole, "hole", {2, 2, 0}, {1, 0.5, 0});
   const SceneItem disc = ItemsOf("disc").at(0), hole = ItemsOf("hole").at(0);
   EXPECT_EQ(disc.role, SceneItem::Role::kPatch);
-  ExpectNear(disc.scale, {0.5F, 0.5F, 1});
-  ExpectNear(hole.scale, {1, 0.5F, 1});
+  ExpectPlace(disc.scale, {0.5F, 0.5F, 1});
+  ExpectPlace(hole.scale, {1, 0.5F, 1});
   EXPECT_EQ(hole.tint, palette::kHole);
   EXPECT_NEAR(hole.position.z() - disc.position.z(), 0.0003, 1e-6);
   EXPECT_GE(disc.position.z(), 0);
