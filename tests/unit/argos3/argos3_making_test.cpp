@@ -278,7 +278,7 @@ TEST(Argos3Making, DevicesOfUsersReadAndChangeTheArena)
 {
   const std::vector<std::string> names{"argos3 sensor counting (default)", "argos3 actuator shining (default)"};
   Argos3Run run({.controllers = Coded("c", "<shining implementation='default'/>",
-                                      "<counting implementation='default' step='3'/>", ""),
+                                      "<counting implementation='default' step='3'/>", "libcode"),
                  .arena = Placed("foot-bot", "a", "0,0,0", "c") + Placed("foot-bot", "b", "1,0,0", "c"),
                  .names = names});
   run.Step("a",
@@ -362,8 +362,8 @@ TEST(Argos3Making, BehavioursOfKilobotsDriveAndWait)
 TEST(Argos3Making, BehavioursOfKilobotsTalkToEachOther)
 {
   Argos3Run run({.controllers = Behaving("kilo_gradient"),
-                 .arena = Placed("kilobot", "kb0", "0,0,0", "k") + Placed("kilobot", "kb1", "0.08,0,0", "k") +
-                          Placed("kilobot", "kb2", "0.16,0,0", "k") + Placed("kilobot", "kb7", "0.6,0,0", "k"),
+                 .arena = Placed("kilobot", "kb0", "0,0,0", "k") + Placed("kilobot", "kb1", "0.0805,0,0", "k") +
+                          Placed("kilobot", "kb2", "0.161,0,0", "k") + Placed("kilobot", "kb7", "0.6,0,0", "k"),
                  .size = "2,2,1",
                  .media = "<kilobot_communication id='air'/><led id='leds'/>",
                  .experiment = "length='0' ticks_per_second='31' random_seed='5'"});
@@ -389,7 +389,7 @@ TEST(Argos3Making, BehavioursOfKilobotsTalkToEachOther)
   EXPECT_EQ(BehaviorOf(run, "kb7").GetRobotState()->color, 0) << "it hears none";
   EXPECT_EQ(run.Get("kb2").GetLEDEquippedEntity().GetLED(0).GetColor(), CColor(170, 85, 0));
   EXPECT_EQ(shown->hops, 2);
-  EXPECT_EQ(shown->nearest, 80) << "mm";
+  EXPECT_EQ(shown->nearest, 80) << "whole mm";
   BehaviorOf(run, "kb2").DebugInfoDestroy(shown);
   // A message each 100 ms: in each fourth step, and one step later each time.
   EXPECT_NEAR(requests, 93 / 5, 1);
@@ -438,7 +438,7 @@ TEST(Argos3Making, UserFunctionsDrawEntitiesTheFloorAndTheWorld)
   // The robot is the first entity, the box the second; its base is 0.3 m below its middle. The arena's corner is our
   // origin.
   EXPECT_THAT(calls, HasSubstr("a in 1 at 1,2,3; crate in 2 at 1,2,2.7; floor in 0 at 3,4,3; world in 0 at 3,4,3; "));
-  EXPECT_THAT(calls, HasSubstr("user ends; end 2; destroy 2; ")) << calls;
+  EXPECT_THAT(calls, HasSubstr("user ends; end 3; destroy 3; ")) << calls;
   EXPECT_THAT(calls, Not(HasSubstr("pre 4")));
   EXPECT_THAT(calls, HasSubstr("press i; release 73; select crate; deselect crate; select a; deselect a; "));
 }
