@@ -19,6 +19,7 @@
 #include "common/plugin_descriptions/describe_builtins.h"
 #include "common/plugins/plugin_library.h"
 #include "launcher/plugin_text.h"
+#include "simulation/register_all.h"
 #include "test_folders.h"
 
 namespace swarmanoid
@@ -127,7 +128,7 @@ TEST(PluginText, PeopleReadATableOfParameters)
 
 TEST(PluginText, ColumnsOfDevicesHaveNamesAndUnits)
 {
-  DescribeBuiltins();
+  RegisterBuiltins();  // columns are those of the devices' code
   const PluginDescription* wheels =
       PluginCatalogue::Instance().Find(PluginKind::kActuator, "footbot_wheels", "dummy_footbot_wheels");
   const PluginDescription* proximity =
