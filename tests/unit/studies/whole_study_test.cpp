@@ -493,9 +493,9 @@ TEST_F(WholeStudy, SearchGoesOnAfterAFailedRunAsIfItHadNotFailed)
   done = Swept({.study = Out(), .resume = true});
   EXPECT_EQ(done.code, kExitDone) << done.err;
   EXPECT_THAT(done.err, ContainsRegex("study s: a search of at most 12 points, 2 seeds each, in .*out\n"));
-  EXPECT_THAT(done.err,
-              ContainsRegex(
-                  "point [0-9]+ of at most 12, [0-9]+ runs; best way\\.mean 0\\.1[0-9]* \\(fault=speeds speed=0\\.1"));
+  // Which points it shows depends on the time that runs take.
+  EXPECT_THAT(done.err, ContainsRegex("point [0-9]+ of at most 12, [0-9]+ runs; best way\\.mean 0\\.[12][0-9]* "
+                                      "\\(fault=speeds speed=0\\.[12]"));
   EXPECT_EQ(Swept({.study = study, .output = folder.Path() + "/whole", .quiet = true}).code, kExitDone);
   EXPECT_EQ(folder.Read("out/table.csv"), folder.Read("whole/table.csv"));
 
