@@ -180,8 +180,7 @@ CByteArray& CRABEquippedEntity::GetData()
   const auto& ours = OursOf(*this);
   SendWritten();
   *data_ = CByteArray(GetMsgSize());
-  const bool can_send = swarmanoid::FindAttribute(ours.GetKind(), "message") != nullptr;
-  if (can_send && ours.GetAttribute("message", 0) != 0)
+  if (swarmanoid::argos3::SendsMessage(ours))
   {
     std::vector<double> values;
     for (int i = 0; i < NumbersOf(*data_); ++i) values.push_back(ours.GetAttribute("message", 1 + i));
@@ -203,6 +202,11 @@ void CRABEquippedEntity::SetData(const CByteArray& data)
 
 namespace swarmanoid::argos3
 {
+
+bool SendsMessage(const CSwarmanoidSpaceEntity& entity)
+{
+  return FindAttribute(entity.GetKind(), "message") != nullptr && entity.GetAttribute("message", 0) != 0;
+}
 
 void SendWrittenMessages()
 {

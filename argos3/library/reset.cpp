@@ -156,8 +156,7 @@ void CLEDEntity::Reset()
 void CRABEquippedEntity::Reset()
 {
   const auto* ours = PresentOf(*this);
-  if (ours == nullptr || swarmanoid::FindAttribute(ours->GetKind(), "message") == nullptr) return;
-  if (ours->GetAttribute("message", 0) != 0) ClearData();
+  if (ours != nullptr && swarmanoid::argos3::SendsMessage(*ours)) ClearData();
 }
 
 void CBatteryEquippedEntity::Reset()

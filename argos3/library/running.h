@@ -196,6 +196,8 @@ Running& TheRunning();
 // Sends the bytes that loop functions wrote into the messages of robots (CRABEquippedEntity::GetData) since the last
 // call.
 void SendWrittenMessages();
+// Returns whether the entity sends a message by range and bearing. Some kinds cannot.
+bool SendsMessage(const CSwarmanoidSpaceEntity& entity);
 
 // While the object lives, LOG and new random generators belong to a robot, or to the loop functions.
 class Speaker

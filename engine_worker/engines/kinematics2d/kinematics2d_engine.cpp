@@ -322,6 +322,12 @@ void Kinematics2dEngine::FollowGhost(std::uint32_t body, const Pose& pose, bool 
   world_.Place(body, PlanePoseOf(pose));
 }
 
+void Kinematics2dEngine::FollowAttributes(Footbot& footbot)
+{
+  footbot.aperture.reset();
+  world_.SetTurretAngle(footbot.body, space_->Attributes()[footbot.turret_slot]);
+}
+
 void Kinematics2dEngine::EntityMoved(std::uint32_t entity)
 {
   const std::uint32_t body = BodyOf(entity);
@@ -340,12 +346,7 @@ void Kinematics2dEngine::TakeOver(std::uint32_t entity, const EntityVelocity& ve
 {
   const std::uint32_t body = BodyOf(entity);
   is_elsewhere_[body] = 0;
-  if (IsFootbot(body))
-  {
-    Footbot& footbot = FootbotOf(body);
-    footbot.aperture.reset();
-    world_.SetTurretAngle(body, space_->Attributes()[footbot.turret_slot]);
-  }
+  if (IsFootbot(body)) FollowAttributes(FootbotOf(body));
   reported_ = 0;
   const Pose pose = space_->GetPose(entity);
   world_.Place(body, PlanePoseOf(pose));
@@ -396,11 +397,7 @@ void Kinematics2dEngine::LoadState(ByteReader& state)
 void Kinematics2dEngine::BeginAgain()
 {
   for (Mirror& mirror : mirrors_) mirror.is_known = 0;
-  for (Footbot& footbot : footbots_)
-  {
-    footbot.aperture.reset();
-    world_.SetTurretAngle(footbot.body, space_->Attributes()[footbot.turret_slot]);
-  }
+  for (Footbot& footbot : footbots_) FollowAttributes(footbot);
   reported_ = 0;
 }
 

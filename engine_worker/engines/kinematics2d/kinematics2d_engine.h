@@ -80,6 +80,8 @@ private:
   void FollowMirrors();
   // Puts the body of an entity of another engine where the space has it.
   void FollowGhost(std::uint32_t body, const Pose& pose, bool present);
+  // Takes the turret's angle from the space, and forgets the commanded aperture.
+  void FollowAttributes(Footbot& footbot);
   void ApplyCommands(const EngineCommands& commands, WorkerPool* pool);
   void DriveWheels(const ChannelBlock& block, std::span<const double> values, WorkerPool* pool);
   void DrivePropellers(const ChannelBlock& block, std::span<const double> values);
