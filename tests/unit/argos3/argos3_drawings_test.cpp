@@ -1,4 +1,4 @@
-// What Qt user functions of ARGoS3 draw, by their own functions and by those of OpenGL.
+// Tests the shapes that Qt user functions of ARGoS3 draw, by their own functions and by those of OpenGL.
 #include <argos3/plugins/robots/foot-bot/simulator/footbot_entity.h>
 #include <argos3/plugins/simulator/entities/box_entity.h>
 #include <argos3/plugins/simulator/visualizations/qt-opengl/qtopengl_user_functions.h>

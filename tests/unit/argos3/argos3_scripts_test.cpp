@@ -18,7 +18,7 @@ using swarmanoid::test::Argos3Text;
 using swarmanoid::test::Placed;
 using testing::HasSubstr;
 
-// What scripts of these tests use.
+// The scripts of these tests call these functions.
 const char* const kChecks = R"(
 function near(value, expected, limit)
   if not (math.abs(value - expected) <= (limit or 1e-6)) then error(value .. " is not " .. expected, 2) end

@@ -26,7 +26,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-// What TinyXML reads of a text, in well-formed XML; "refused" if it refuses the text.
+// Returns the content that TinyXML reads from a text, as well-formed XML, or "refused".
 std::string TinyXmlOf(const std::string& text, std::vector<Diagnostic>* notes = nullptr)
 {
   std::vector<Diagnostic> found;

@@ -469,7 +469,7 @@ TEST(Argos3Tools, ElementsAreWrittenWithTheirChildrenIndented)
   top.RemoveChild(&first);
   EXPECT_EQ(top.FirstChildElement()->Value(), "leaf");
   EXPECT_EQ(kept.NextSiblingElement(false), nullptr) << "it has no siblings any more";
-  // Those behind a removed one follow each other.
+  // The elements behind a removed element follow each other.
   for (const char* name : {"x", "y", "z"}) top.InsertEndChild(TConfigurationNode(name));
   top.RemoveChild(top.FirstChildElement("x"));
   EXPECT_EQ(top.FirstChildElement("leaf")->NextSiblingElement()->Value(), "y");

@@ -1,4 +1,4 @@
-// What programs of a run print, log and name: the last line, the hash log, grants, addresses.
+// Tests the texts that the programs of a run print, log and name: the last line, the hash log, grants, addresses.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

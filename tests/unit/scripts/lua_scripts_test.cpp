@@ -39,7 +39,7 @@ void ExpectResults(const std::vector<Row>& rows, const std::map<std::string, std
   for (const Row& row : rows) EXPECT_THAT(ResultOf(row.statements, files), HasSubstr(row.result)) << row.statements;
 }
 
-// As above, but the whole text of the result is known.
+// Expects the whole text of each result.
 void ExpectTexts(const std::vector<Row>& rows, const std::map<std::string, std::string>& files = {})
 {
   for (const Row& row : rows) EXPECT_EQ(ResultOf(row.statements, files), row.result) << row.statements;

@@ -54,7 +54,7 @@ public:
     host = std::make_unique<ControllerHost>(*space, assignment_, 0);
   }
 
-  // What the controllers set at a tick is seen from the next one.
+  // Makes one tick. LEDs and other attributes that controllers set in it are visible in the next tick.
   const ControlCommands& Tick(std::uint64_t tick)
   {
     space->SetTick(tick);

@@ -196,7 +196,7 @@ TEST_F(ScriptedMachines, ResultsComeBackWithTheirFiles)
   EXPECT_THAT(pool.TakeNotes(), IsEmpty());
   EXPECT_TRUE(pool.IsIdle());
   EXPECT_THAT(pool.Running(), IsEmpty());
-  // What the machine received: the lease, the number of runs at a time, and the setup.
+  // The machine received the lease, the number of runs at a time, and the setup.
   const std::string received = folder.Read("alpha.received");
   FrameReader reader;
   reader.Add(received);
